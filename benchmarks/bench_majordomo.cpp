@@ -104,7 +104,7 @@ class Middle {
     if (::write(end, text.c_str(), text.size() + 1) < 0) ::_exit(1);
   }
   [[noreturn]] static void serve_broker(int end) {
-    Broker broker({.bind = "tcp://127.0.0.1:0", .on_event = [](const BrokerEvent&) {}});
+    Broker broker({.bind = "tcp://127.0.0.1:0"}, [](const BrokerEvent&) {});
     tell(end, broker.endpoint() + " " + broker.endpoint());
     broker.run();
     ::_exit(0);

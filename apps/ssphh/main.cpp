@@ -59,7 +59,7 @@ int run(int argc, char** argv) {
     return ended.wrong_usage ? usage : success;
   }
 
-  StderrProgress progress(progress_style(context.progress));
+  StderrProgress progress(context.progress);
   context.control = {&progress, &cancel_token};
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);

@@ -5,7 +5,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <tuple>
 
 #include <ssphh/bake/bake.h>
 #include <ssphh/gl/context.h>
@@ -13,90 +12,32 @@
 #include "model/autosave.h"
 #include "model/camera_path.h"
 #include "model/document.h"
+#include "model/drag.h"
 #include "model/exposure_follower.h"
-#include "model/file_browser.h"
+#include "model/file_dialog.h"
+#include "model/file_watch.h"
 #include "model/frame_times.h"
-#include "model/gestures.h"
 #include "model/inspection.h"
 #include "model/preferences.h"
+#include "model/question.h"
 #include "model/reading.h"
 #include "model/reference.h"
+#include "model/view_history.h"
 #include "outline_gl.h"
 #include "picture.h"
 #include "probe_light.h"
+#include "screen.h"
 #include "viewer.h"
 #include "window.h"
 
 namespace ssphh::viewer {
-
-enum class Kind { none, light, sphl, material, object };
-
-struct Selection {
-  Kind kind = Kind::none;
-  int index = -1;        ///< of an object: its node
-  int of_material = -1;  ///< of an object: the material where it was clicked
-
-  bool is(Kind k) const { return kind == k && index >= 0; }
-  /// Chosen itself, or with an object; −1: none.
-  int material() const { return kind == Kind::material ? index : kind == Kind::object ? of_material : -1; }
-  friend bool operator==(const Selection&, const Selection&) = default;
-};
-
-/// The part of the window in which the scene is shown, pixels from the upper left.
-struct Rect2 {
-  float x = 0, y = 0, width = 1, height = 1;
-  bool contains(float px, float py) const { return px >= x && py >= y && px < x + width && py < y + height; }
-  float aspect() const { return width / height; }
-};
-
-/// What the mouse drags.
-struct Drag {
-  enum class What { none, view, look, pan, object, axis, aim, wipe } what = What::none;
-  Grip grip;                  ///< of objects
-  bool moved = false;         ///< since the press
-  float way = 0;              ///< of the mouse since then [pixels]
-  std::optional<vec3> pivot;  ///< what a turn of the view turns about; none: the view's focus
-
-  /// Whether view or scene follow the mouse: not before it moves, and the wipe's line is neither.
-  bool changes_picture() const { return moved && what != What::none && what != What::wipe; }
-};
-/// What the pixel inspector shows.
-struct Inspection {
-  vec2 point{0};  ///< of the picture, (0, 0) its lower left and (1, 1) its upper right corner
-  std::optional<InspectedSurface> surface;
-  std::optional<vec3> radiance, truth;  ///< of the picture's pixel; none: not drawn yet, not traced
-  InspectedLight light;
-};
-
-/// What the user is asked before edits or a bake are lost, or where an earlier session left some.
-struct Question {
-  enum class Then { nothing, close, open, recover, reload } then = Then::nothing;
-  std::string source;  ///< to open
-  Kept kept;           ///< to recover
-};
-enum class Answer { save, discard, stay, recover };
-
-/// A file that the user is about to choose.
-struct FileDialog {
-  enum class For { open, scene, probes } what = For::open;
-  FileBrowser browser;
-  std::string problem;             ///< with what was chosen last
-  std::filesystem::path replaces;  ///< file that is there, and is written over once it is chosen again
-};
-
-/// By which a file on the disk is known to have changed.
-struct FileState {
-  std::filesystem::file_time_type written;
-  std::uintmax_t size = 0;
-  friend bool operator==(const FileState&, const FileState&) = default;
-};
 
 /// Whether the name ends as a probe file's does.
 bool is_probe_file(const std::string& name);
 
 class App {
  public:
-  App(Window& window, const ViewerOptions& options, const Control& control);
+  App(Window& window, const ViewerOptions& options, LoadScene load);
   /// Work that is not saved, and that the user did not discard, is kept for the next session.
   ~App();
   App(const App&) = delete;
@@ -303,14 +244,6 @@ class App {
   void take_scene(Loaded loaded);
   void take_document(Loaded loaded);
   void watch_file();
-  std::optional<FileDialog> mended_;  ///< comes back if what was chosen there cannot be loaded
-  /// The scene's file: as it was loaded, as it was seen last, when that was, and whether the user knows that
-  /// it is gone.
-  struct {
-    std::optional<FileState> loaded, seen;
-    double looked = 0;
-    bool told = false;
-  } watched_;
   /// start_view(), or of a scene without cameras study::default_view().
   View view_from(const std::string& camera) const;
   /// Notes a file that was written and says so.
@@ -321,8 +254,6 @@ class App {
   /// The selected SPHL or lamp is the same one as in `before`, if it is still there.
   void keep_selection(const Edits& before);
   void delete_lamp();
-  std::optional<float> suitable_exposure() const;
-  bool show_exposure(float ev);
   /// Throws Error where a set is not of the scene; with options.force warns.
   void fit_to_scene(probes::ProbeSet& set, const std::string& file) const;
   void update_time(double seconds);
@@ -330,95 +261,59 @@ class App {
   /// A renderer with the lamps that there are now; all that it had it is given again.
   void renew_renderer();
   void update_light();
-  bool picture_stale() const;
-  void draw_scene();
-  void begin_picture();
-  void continue_picture();
-  void draw_balls();
-  void draw_outline();
-  bool smooths() const { return settings.antialias && !needs_truth(settings) && !settings.false_color; }
-  void update_truth();
-  void update_visible();
   void finish_frame();
   void update_title();
   bool by_hand() const;
   void leave();
   bool keeps() const { return autosave_.keeps() && by_hand(); }
+
+  // The picture (app_picture.cpp)
   void resize_picture();
+  bool picture_stale() const;
+  void draw_scene();
+  void begin_picture();
+  void continue_picture();
+  void finish_picture(const Drawing& done);
+  void draw_balls();
+  void draw_outline();
+  /// Brings histograms and false colours up to date with the picture.
+  void update_readings();
+  void update_truth();
+  void update_visible();
+  std::optional<float> suitable_exposure() const;
+  bool show_exposure(float ev);
+  bool smooths() const { return settings.antialias && !needs_truth(settings) && !settings.false_color; }
+  bool wants_linear() const {
+    return needs_truth(settings) || inspecting || settings.histogram || settings.false_color;
+  }
+
+  LoadScene load_;
   std::optional<gl::Context> gl_;  ///< adopted with the first scene
   std::unique_ptr<realtime::Renderer> renderer_;
-  /// Scene with whose lamps live light was asked for last, and the light that did not have them.
-  std::pair<std::shared_ptr<const scene::Scene>, const LiveLight*> relit_for_{};
-  std::shared_ptr<const scene::Scene> lamps_of_;  ///< scene whose lamps the renderer has
   std::unique_ptr<BallsGl> balls_;
   std::unique_ptr<OutlineGl> outline_;
   trace::SharedGeometry geometry_;  ///< of document.opened, and of every scene with other lamps
   std::unique_ptr<trace::TransportScene> picking_;
+  Screen screen_;
+  Applied applied_;
   ExposureFollower exposure_;
-  std::optional<float> suits_;          ///< EV that suits the picture, where it is to be followed
-  std::vector<unsigned char> visible_;  ///< per probe, from the eye
+  ViewHistory views_;
+  std::optional<InspectedAt> inspected_;  ///< what `inspection` holds for
+  scene::Bounds clicked_;                 ///< part of the selected object that was clicked; empty: it was not
 
-  // What the picture on the screen was drawn with.
-  struct Drawn {
-    View view;
-    Settings settings;
-    Selection selection;
-    int width = 0, height = 0;
-  };
-  /// The picture that is being drawn, piece by piece.
-  struct Drawing {
-    bool smooth = false;  ///< another one for the mean
-    double seconds = 0;   ///< so far
-  };
-  void finish_picture(const Drawing& done);
-  bool wants_linear() const {
-    return needs_truth(settings) || inspecting || settings.histogram || settings.false_color;
-  }
-  WindowLook kept_look_;  ///< in the preferences
-  /// Brings histograms and false colours up to date with the picture.
-  void update_readings();
-  std::optional<std::tuple<int, int, float, bool>>
-      read_;  ///< picture, passes, EV, false colours that they hold for
-  bool awaits_picture() const { return drawing_ && !drawing_->smooth; }
-  std::optional<Drawing> drawing_;
-  int pictures_ = 0;  ///< that became whole
-  /// What `inspection` holds for.
-  struct Inspected {
-    vec2 point;
-    View view;
-    float time;
-    std::uint64_t edits;
-    int pictures;
-    const void* scene;
-    friend bool operator==(const Inspected&, const Inspected&) = default;
-  };
-  std::optional<Inspected> inspected_;
-  void keep_view();
-  History<View> views_;
-  View view_seen_;
-  double view_since_ = 0;
-  std::optional<Ball> balls_are_;  ///< coloured by
-  scene::Bounds clicked_;          ///< part of the selected object that was clicked; empty: it was not
-  std::optional<Drawn> drawn_;
-  /// What the outline was drawn with, and when in the scene.
-  std::optional<std::pair<Drawn, float>> outlined_;
-  std::optional<std::pair<View, float>> visible_seen_;  ///< from where and when `visible_` holds
-  bool scene_dirty_ = true, balls_dirty_ = true, truth_dirty_ = true, light_stale_ = false;
-  std::vector<scene::Material> applied_materials_;
-  std::vector<SphlEdit> applied_sphls_;
-  int redraw_ = 3;
-  double last_turn_ = 0, last_change_ = 0, last_frame_ = 0, stale_since_ = 0;
-  int waiting_maps_ = 0;
-  bool coarse_ = false;                      ///< something moves and frames are slow: fewer pixels meanwhile
-  std::optional<Settings> truth_settings_;   ///< that the truth on the screen was made for
-  std::pair<std::string, int> truth_asked_;  ///< method and depth of what is traced
-  bool closes_ = false;                      ///< the user does not mind what is lost
+  FileWatch watch_;                   ///< of the scene's file
+  std::optional<FileDialog> mended_;  ///< comes back if what was chosen there cannot be loaded
+  WindowLook kept_look_;              ///< in the preferences
   Autosave autosave_;
   BackgroundJob keeper_;                       ///< writes what is not saved
   std::pair<std::uint64_t, int> kept_{0, -1};  ///< History::serial() and ProbeLight::works() of what was kept
   std::optional<double> unsaved_since_;        ///< or since it was kept
+  bool closes_ = false;                        ///< the user does not mind what is lost
+
   std::string title_;
   std::string window_shot_;  ///< file that is to get the window's next frame; empty: none
+  int redraw_ = 3;
+  double last_turn_ = 0, last_change_ = 0, last_frame_ = 0;
 };
 
 }  // namespace ssphh::viewer

@@ -7,7 +7,8 @@
 namespace ssphh::viewer {
 
 void App::inspect(const vec2& point) {
-  const Inspected now{point, view, document.time, document.history.serial(), pictures_, picking_.get()};
+  const InspectedAt now{point,         view, document.time, document.history.serial(), screen_.pictures,
+                        picking_.get()};
   if (!inspection || !inspected_ || !(*inspected_ == now)) {
     inspected_ = now;
     inspection = Inspection{};
@@ -34,7 +35,7 @@ void App::inspect(const vec2& point) {
                y = static_cast<int>((1 - point.y) * static_cast<float>(image.height));
     return image.rgb(std::clamp(x, 0, image.width - 1), std::clamp(y, 0, image.height - 1));
   };
-  inspection->radiance = awaits_picture() ? inspection->radiance : pixel(picture.linear());
+  inspection->radiance = screen_.awaits_picture() ? inspection->radiance : pixel(picture.linear());
   const ReferenceImage& truth = reference.image();
   inspection->truth = needs_truth(settings) && truth.color ? pixel(*truth.color) : std::nullopt;
 }
@@ -46,46 +47,35 @@ void App::toggle_inspector() {
   redraw();
 }
 
-/// One step for each view that somebody stayed at.
 void App::note_view() {
-  if (view == views_.now() || drag.what != Drag::What::none || path_plays) return;
-  if (!(view == view_seen_)) {
-    view_seen_ = view;
-    view_since_ = window.seconds();
-  } else if (window.seconds() - view_since_ >= 0.3) {
-    keep_view();
-  }
-}
-
-void App::keep_view() {
-  views_.seal();
-  if (!(view == views_.now())) views_.change(view, "view");
+  if (drag.what == Drag::What::none && !path_plays) views_.note(view, window.seconds());
 }
 
 void App::view_back() {
-  keep_view();
-  if (!views_.undo()) return say("there is no earlier view");
-  view = views_.now();
+  const std::optional<View> before = views_.back(view);
+  if (!before) return say("there is no earlier view");
+  view = *before;
   path_plays = false;
   redraw();
 }
 
 void App::view_forward() {
-  if (!(view == views_.now()) || !views_.redo()) return say("there is no later view");
-  view = views_.now();
+  const std::optional<View> next = views_.forward(view);
+  if (!next) return say("there is no later view");
+  view = *next;
   path_plays = false;
   redraw();
 }
 
 void App::view_along(const vec3& direction) {
-  keep_view();
+  views_.keep(view);
   view = seen_along(view, direction);
   path_plays = false;
   redraw();
 }
 
 void App::toggle_orthographic() {
-  keep_view();
+  views_.keep(view);
   view = with_other_projection(view);
   redraw();
 }

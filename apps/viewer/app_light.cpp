@@ -44,7 +44,7 @@ void App::take_places(const std::string& what, const Places& places) {
   document.history.seal();
   document.history.change(std::move(edits), what, false);
   document.history.seal();
-  applied_sphls_ = document.edits().sphls;
+  applied_.sphls = document.edits().sphls;
   selection = {};
 }
 

@@ -32,18 +32,6 @@ std::string short_name(const std::string& source) {
   return source.starts_with("builtin:") ? source : fs::path(source).filename().string();
 }
 
-/// When the file was written last and how large it is; none: there is no file.
-std::optional<FileState> state_of(const std::string& file) {
-  std::error_code error;
-  const auto written = fs::last_write_time(file, error);
-  if (error || fs::is_directory(file, error)) return {};
-  const auto size = fs::file_size(file, error);
-  if (error) return {};
-  return FileState{written, size};
-}
-
-constexpr double look_every = 1;  // seconds
-
 }  // namespace
 
 /// A scene with all that is made of it before OpenGL takes it over.
@@ -57,14 +45,14 @@ struct App::Loaded {
       : document(std::move(d)),
         geometry(trace::geometry_of(document.scene)),
         picking(std::make_unique<trace::TransportScene>(geometry, *document.scene)),
-        file(state_of(document.source)) {}
+        file(file_state(document.source)) {}
 };
 
 void App::open(const std::string& source) {
   if (is_path(source)) return load_path(source);
   if (is_probe_file(source)) return take_probe_file(source);
   say(fmt::format("loading {} …", source));
-  take_loaded(source, Loaded(make_document(source, options.load(source), 0)));
+  take_loaded(source, Loaded(make_document(source, load_(source), 0)));
 }
 
 void App::take_loaded(const std::string& source, Loaded loaded) {
@@ -89,7 +77,7 @@ void App::take_scene(Loaded loaded) {
       std::make_unique<realtime::Renderer>(*gl_, *next.scene, realtime::RendererParams{}, next.time);
   take_document(std::move(loaded));
   renderer_ = std::move(renderer);
-  lamps_of_ = document.scene;
+  applied_.lamps_of = document.scene;
 }
 
 void App::take_document(Document next) {
@@ -103,7 +91,7 @@ void App::take_document(Loaded loaded) {
   document = std::move(loaded.document);
   if (document.source == options.source) document.overlay = options.overlay;
   mended_.reset();
-  watched_ = {loaded.file, loaded.file, window.seconds(), false};
+  watch_ = FileWatch(loaded.file, window.seconds());
   light.clear();
   autosave_.drop();
   question = {};
@@ -111,18 +99,13 @@ void App::take_document(Loaded loaded) {
   selection = {};
   camera = -1;
   view = view_from("");
-  views_ = History<View>(view);
+  views_ = ViewHistory(view);
   pinned.reset(), inspection.reset();
-  applied_materials_ = document.edits().materials;
-  applied_sphls_ = document.edits().sphls;
-  drawn_.reset();
-  drawing_.reset();
+  applied_.materials = document.edits().materials;
+  applied_.sphls = document.edits().sphls;
+  screen_.forget();
   exposure_.forget();
-  visible_seen_.reset();
-  outlined_.reset();
-  read_.reset();
-  scene_dirty_ = true;
-  light_stale_ = false;
+  applied_.light_stale = false;
   fly_speed = document.bounds.empty() ? 2 : std::max(0.2f, 0.25f * document.bounds.radius());
   update_title();
   redraw();
@@ -134,7 +117,7 @@ void App::open_then(const std::string& source, std::function<void()> then) {
     return then();
   }
   job.start("loading " + short_name(source),
-            [this, source, then = std::move(then), load = options.load,
+            [this, source, then = std::move(then), load = load_,
              edits = document.history.serial()](const Control& control) -> BackgroundJob::Finish {
               scene::Scene scene = load(source);
               control.check();
@@ -208,23 +191,17 @@ void App::take_dropped(const std::vector<std::string>& files) {
   }
 }
 
-/// Once a file has changed, and has not gone on changing, the user is asked whether to load it anew; of one
-/// that is gone the user is told.
+/// Once the scene's file has changed, and has not gone on changing, the user is asked whether to load it
+/// anew; of one that is gone the user is told.
 void App::watch_file() {
-  if (!by_hand() || !scene_open() || !watched_.loaded) return;
-  if (window.seconds() - watched_.looked < look_every) return;
-  watched_.looked = window.seconds();
-  const auto before = std::exchange(watched_.seen, state_of(document.source));
-  if (!watched_.seen) {
-    if (before || watched_.told) return;
-    watched_.told = true;
-    return complain(fmt::format("{} is gone from the disk; it stays open, and can be saved under a name",
-                                document.source));
-  }
-  watched_.told = false;
-  if (watched_.seen == watched_.loaded || watched_.seen != before) return;
-  if (question.then != Question::Then::nothing || job.running() || dialog) return;
-  watched_.loaded = watched_.seen;
+  if (!by_hand() || !scene_open()) return;
+  const FileWatch::News news = watch_.look(document.source, window.seconds());
+  if (news == FileWatch::News::gone)
+    complain(fmt::format("{} is gone from the disk; it stays open, and can be saved under a name",
+                         document.source));
+  const bool busy = question.then != Question::Then::nothing || job.running() || dialog;
+  if (news != FileWatch::News::changed || busy) return;
+  watch_.taken();
   question = {Question::Then::reload, document.source, {}};
   redraw();
 }

@@ -12,14 +12,14 @@ namespace ssphh::viewer {
 namespace {
 
 std::string material_name(const Edits& edits, int material) {
-  const std::string& name = edits.materials[static_cast<std::size_t>(material)].name;
+  const std::string& name = edits.materials[material].name;
   return name.empty() ? fmt::format("material {}", material) : name;
 }
 
 std::vector<int> instances_of(const scene::Scene& scene, const Selection& selection) {
   std::vector<int> out;
   for (int i = 0; i < static_cast<int>(scene.instances.size()); ++i) {
-    const scene::Instance& instance = scene.instances[static_cast<std::size_t>(i)];
+    const scene::Instance& instance = scene.instances[i];
     const bool chosen =
         selection.is(Kind::object)
             ? instance.node == selection.index
@@ -50,7 +50,7 @@ void App::select_on_ray(const rays::RayQuery& ray) {
   const scene::Scene& scene = *document.scene;
   const auto picked = pick_body(scene, scene::world_matrices(scene, document.time), ray);
   if (!picked) return select({});
-  const scene::Instance& instance = scene.instances[static_cast<std::size_t>(picked->instance)];
+  const scene::Instance& instance = scene.instances[picked->instance];
   select({Kind::object, instance.node, scene::instance_material(scene, instance)});
   clicked_ = part_bounds(scene, scene::world_matrices(scene, document.time), *picked);
 }
@@ -74,22 +74,22 @@ void App::frame_selection() {
 }
 
 const gl::Texture* App::outline() const {
-  return outlined_ && !outline_->empty() ? &outline_->picture() : nullptr;
+  return screen_.outline && !outline_->empty() ? &outline_->picture() : nullptr;
 }
 
 void App::draw_outline() {
-  if (!selection.is(Kind::object) && !selection.is(Kind::material)) return outlined_.reset();
-  if (!drawn_) return;
-  const bool same_bodies = outlined_ && outlined_->first.selection == selection;
-  const Drawn now{drawn_->view, {}, selection, picture.width(), picture.height()};
-  if (same_bodies && outlined_->first.view == now.view && outlined_->first.width == now.width &&
-      outlined_->first.height == now.height && outlined_->second == document.time)
+  if (!selection.is(Kind::object) && !selection.is(Kind::material)) return screen_.outline.reset();
+  if (!screen_.drawn) return;
+  const bool same_bodies = screen_.outline && screen_.outline->first.selection == selection;
+  const DrawnWith now{screen_.drawn->view, {}, selection, picture.width(), picture.height()};
+  if (same_bodies && screen_.outline->first.view == now.view && screen_.outline->first.width == now.width &&
+      screen_.outline->first.height == now.height && screen_.outline->second == document.time)
     return;
   if (!outline_) outline_ = std::make_unique<OutlineGl>();
   if (!same_bodies) outline_->set(*document.scene, instances_of(*document.scene, selection));
   outline_->draw(scene::world_matrices(*document.scene, document.time), renderer_->depth_texture(),
                  renderer_->view_projection(), now.width, now.height);
-  outlined_ = {now, document.time};
+  screen_.outline = {now, document.time};
   redraw();
 }
 

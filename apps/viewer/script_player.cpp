@@ -103,11 +103,12 @@ void select(App& app, const ScriptLine& line) {
   const auto take = [&](Kind k, const auto& items) {
     app.selection = {k, static_cast<int>(find_named(line, items, name, by_name))};
   };
-  if (kind == "light") return take(Kind::light, app.document.scene->lights);
-  if (kind == "sphl") return take(Kind::sphl, app.document.edits().sphls);
-  if (kind == "material") return take(Kind::material, app.document.edits().materials);
-  if (kind == "object") return take(Kind::object, app.document.scene->nodes);
-  throw Error(line.where, fmt::format("\"{}\" is none of: light, sphl, material, object", kind));
+  const std::optional<Kind> what = value_in(selectable_kinds, kind);
+  if (what == Kind::light) return take(Kind::light, app.document.scene->lights);
+  if (what == Kind::sphl) return take(Kind::sphl, app.document.edits().sphls);
+  if (what == Kind::material) return take(Kind::material, app.document.edits().materials);
+  if (what == Kind::object) return take(Kind::object, app.document.scene->nodes);
+  throw Error(line.where, none_of(kind, names_in(selectable_kinds)));
 }
 
 void save(App& app, const std::string& file) {

@@ -101,15 +101,16 @@ void play(App& app, Session& session, const ViewerOptions& options) {
 
 }  // namespace
 
-ViewerReport run_viewer(const ViewerOptions& options, const Control& control) {
+ViewerReport run_viewer(const ViewerOptions& options, const LoadScene& load, const Control& control) {
   if (!options.export_dir.empty() && options.path.empty())
     throw Error("--export", "needs the path that is to be drawn", "give a camera path file with --path");
   GlfwWindow window("ssphh", options.width, options.height);
-  return run_session(window, options, control);
+  return run_session(window, options, load, control);
 }
 
-ViewerReport run_session(Window& window, const ViewerOptions& options, const Control& control) {
-  App app(window, options, control);
+ViewerReport run_session(Window& window, const ViewerOptions& options, const LoadScene& load,
+                         const Control& control) {
+  App app(window, options, load);
   Session session(app, control);
   begin(app, session, options);
   const bool batch = !options.screenshot.empty() || !options.export_dir.empty();

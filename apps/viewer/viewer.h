@@ -1,6 +1,7 @@
 #pragma once
 /// The viewer: a scene lit by probes in a window, lamps and doors moving (docs/viewer.md).
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -14,10 +15,8 @@
 namespace ssphh::viewer {
 
 struct ViewerOptions {
-  std::string source;  ///< SCENE; empty: an empty window that waits for a file to be dropped
-  /// Loads a scene as the tool's options say (overlay, environment); throws Error.
-  std::function<scene::Scene(const std::string& source)> load;
-  std::string overlay;  ///< that `load` lays on `source`; empty: the one beside it, if there is one
+  std::string source;   ///< SCENE; empty: an empty window that waits for a file to be dropped
+  std::string overlay;  ///< that loading lays on `source`; empty: the one beside it, if there is one
   std::string camera;   ///< by name; empty: the first
   float time = 0;       ///< pose at the start [s]
   std::string probes;   ///< a probe file; scene, auto, auto:METRES; off; empty: the scene's SPHLs, if any
@@ -46,16 +45,21 @@ struct ViewerReport {
   int frames = 0;
   std::string renderer;  ///< OpenGL's name of it
   int probes = 0;
-  double median_ms = 0, p99_ms = 0;  ///< of a drawn frame
-  std::vector<std::string> written;  ///< files
+  double median_ms = 0, p99_ms = 0;   ///< of a drawn frame
+  std::uint64_t geometry_builds = 0;  ///< acceleration structures that were built, one for each opened scene
+  std::vector<std::string> written;   ///< files
 };
+
+/// Loads a scene as the tool's options say (overlay, environment); throws Error.
+using LoadScene = std::function<scene::Scene(const std::string& source)>;
 
 /// Opens the window and returns when it is closed or all that the options ask for is done. Throws Error when
 /// there is no display or no OpenGL 4.5, and for anything in the options that cannot be done.
-ViewerReport run_viewer(const ViewerOptions& options, const Control& control);
+ViewerReport run_viewer(const ViewerOptions& options, const LoadScene& load, const Control& control);
 
 class Window;
 /// The same in a window that is there.
-ViewerReport run_session(Window& window, const ViewerOptions& options, const Control& control);
+ViewerReport run_session(Window& window, const ViewerOptions& options, const LoadScene& load,
+                         const Control& control);
 
 }  // namespace ssphh::viewer

@@ -123,12 +123,12 @@ void add_bake(py::module_& m) {
         "Finds the light at every probe of a scene, as `ssphh bake` does, to the same bits.", "scene"_a,
         "output"_a = none, py::kw_only(), "probes"_a = none, "degree"_a = 9, "operator"_a = none,
         "quality"_a = none, "max_memory"_a = 0.0, "seed"_a = 0, "face"_a = none, "max_depth"_a = none,
-        "passes"_a = none, "spp"_a = none, "gen"_a = "full", "viz"_a = none, "neighbors"_a = none,
-        "threshold"_a = none, "viz_source"_a = none, "viz_paths"_a = none, "viz_max_depth"_a = none,
-        "viz_passes"_a = none, "viz_spp"_a = none, "viz_transfer"_a = false, "directions"_a = none,
-        "surfel_size"_a = none, "link_rays"_a = none, "records"_a = none, "fit"_a = false,
-        py::arg_v("clearance", 0.04f, "0.04"), "refine"_a = 1, "max_probes"_a = 4096, "resume"_a = true,
-        "progress"_a = none);
+        "passes"_a = none, "spp"_a = none, "gen"_a = name_of(probes::GenMode::full), "viz"_a = none,
+        "neighbors"_a = none, "threshold"_a = none, "viz_source"_a = none, "viz_paths"_a = none,
+        "viz_max_depth"_a = none, "viz_passes"_a = none, "viz_spp"_a = none, "viz_transfer"_a = false,
+        "directions"_a = none, "surfel_size"_a = none, "link_rays"_a = none, "records"_a = none,
+        "fit"_a = false, py::arg_v("clearance", 0.04f, "0.04"), "refine"_a = 1, "max_probes"_a = 4096,
+        "resume"_a = true, "progress"_a = none);
 }
 
 }  // namespace ssphh::python

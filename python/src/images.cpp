@@ -96,11 +96,16 @@ FloatArray error_map(const py::object& reference, const py::object& test, const 
                      bool display, double pixels_per_degree) {
   const Pair pair = pair_of(reference, test, py::none());
   return array_of(run(py::none(), [&](const Control&) {
-    if (map == "absolute") return metrics::absolute_error_map(pair.reference, pair.test);
-    if (map == "signed") return metrics::signed_error_map(pair.reference, pair.test);
-    if (map == "relmse") return metrics::relative_squared_error_map(pair.reference, pair.test);
-    if (map == "flip") return flip_of(pair, display, {pixels_per_degree}).map;
-    throw Error("map", none_of(map, {"absolute", "signed", "relmse", "flip"}));
+    using metrics::ErrorMap;
+    const std::optional<ErrorMap> shown = parse_enum<ErrorMap>(map);
+    if (shown == ErrorMap::absolute) return metrics::absolute_error_map(pair.reference, pair.test);
+    if (shown == ErrorMap::with_sign) return metrics::signed_error_map(pair.reference, pair.test);
+    if (shown == ErrorMap::relmse) return metrics::relative_squared_error_map(pair.reference, pair.test);
+    if (shown == ErrorMap::flip) return flip_of(pair, display, {pixels_per_degree}).map;
+    // The others ask for more than two pictures.
+    std::vector<std::string> names = names_of<ErrorMap>();
+    for (const ErrorMap more : {ErrorMap::pixelated, ErrorMap::edges}) std::erase(names, name_of(more));
+    throw Error("map", none_of(map, names));
   }));
 }
 
@@ -112,15 +117,16 @@ void add_images(py::module_& m) {
   m.def("read_image", &read_image, "Reads EXR, HDR, PNG, JPEG or WebP: linear, height x width (x 3 or 4).",
         "path"_a);
   m.def("write_image", &write_image, "Writes .exr or .hdr (linear), .png or .jpg (tone mapped).", "path"_a,
-        "picture"_a, py::kw_only(), "exposure"_a = none, "tonemap"_a = "clip");
+        "picture"_a, py::kw_only(), "exposure"_a = none, "tonemap"_a = name_of(image::ToneCurve::clip));
   m.def("tone_map", &tone_map,
         "8-bit sRGB of linear radiance, as pyplot.imshow takes it: height x width x 3.", "picture"_a,
-        py::kw_only(), "exposure"_a = none, "tonemap"_a = "clip");
+        py::kw_only(), "exposure"_a = none, "tonemap"_a = name_of(image::ToneCurve::clip));
   m.def("compare", &compare, "Errors of a picture against a reference, as `ssphh compare` tells them.",
         "reference"_a, "test"_a, py::kw_only(), "mask"_a = none, "display"_a = false,
         "pixels_per_degree"_a = usual);
   m.def("error_map", &error_map, "Where the errors are: absolute, signed, relmse or flip.", "reference"_a,
-        "test"_a, "map"_a = "absolute", py::kw_only(), "display"_a = false, "pixels_per_degree"_a = usual);
+        "test"_a, "map"_a = name_of(metrics::ErrorMap::absolute), py::kw_only(), "display"_a = false,
+        "pixels_per_degree"_a = usual);
 }
 
 }  // namespace ssphh::python

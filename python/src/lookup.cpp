@@ -113,8 +113,8 @@ void add_lookup(py::module_& m) {
   at_home(type)
       .def(py::init<SceneHandle, const ProbeSet&, const std::string&, const std::optional<std::string>&,
                     const std::string&, bool>(),
-           "scene"_a, "probes"_a, py::kw_only(), "lookup"_a = "irradiance", "weights"_a = none,
-           "light"_a = "sum", "force"_a = false)
+           "scene"_a, "probes"_a, py::kw_only(), "lookup"_a = name_of(probes::LookupSpec{}.method),
+           "weights"_a = none, "light"_a = name_of(probes::LookupSpec{}.layer), "force"_a = false)
       .def("irradiance", &Lookup::irradiance,
            "Irradiance [W/m2] at points Nx3 of surfaces with normals Nx3: Nx3.", "points"_a, "normals"_a,
            "moves"_a = none, py::kw_only(), "progress"_a = none)

@@ -47,7 +47,7 @@ py::dict light_at(const Handle& self, std::ptrdiff_t index) {
   const auto count = static_cast<std::ptrdiff_t>(self->probes.size());
   if (index < -count || index >= count)
     throw py::index_error(fmt::format("there is no probe {}: there are {}", index, count));
-  const Probe& probe = self->probes[static_cast<std::size_t>(index < 0 ? index + count : index)];
+  const Probe& probe = self->probes[index < 0 ? index + count : index];
   py::dict groups;
   for (std::size_t g = 0; g < probe.groups.size(); ++g) {
     const GroupLight& light = probe.groups[g];
@@ -305,7 +305,8 @@ void add_probe_set(py::module_& m) {
           },
           "Dims or colours a light group without a bake, relative to it.", "group"_a, "scale"_a)
       .def("hier", &run_hier, "Adds neighbours' light; returns the number of edges used.",
-           "operator"_a = "coefficient", py::kw_only(), "neighbors"_a = -1, "threshold"_a = 0.0f)
+           "operator"_a = name_of(probes::HierOperator::coefficient), py::kw_only(), "neighbors"_a = -1,
+           "threshold"_a = 0.0f)
       .def("__repr__", [](const ProbeSet& s) {
         return fmt::format("<ssphh.ProbeSet of {} probes, degree {}, {} light groups, {} edges>",
                            s.probes.size(), s.degree, s.light_groups.size(), probes::edge_count(s));

@@ -243,9 +243,9 @@ void add_relight(py::module_& m) {
   at_home(type)
       .def(py::init<SceneHandle, const py::object&, const std::string&, int, int, std::optional<int>,
                     std::optional<float>, std::optional<int>, bool, const py::object&>(),
-           "scene"_a, "probes"_a = none, py::kw_only(), "operator"_a = "surfel", "degree"_a = 4,
-           "records"_a = transport::usual_records, "directions"_a = none, "surfel_size"_a = none,
-           "link_rays"_a = none, "warm_start"_a = true, "progress"_a = none)
+           "scene"_a, "probes"_a = none, py::kw_only(), "operator"_a = name_of(probes::LightOperator::surfel),
+           "degree"_a = 4, "records"_a = transport::usual_records, "directions"_a = none,
+           "surfel_size"_a = none, "link_rays"_a = none, "warm_start"_a = true, "progress"_a = none)
       .def_property("time", &Session::time, &Session::set_time, "Pose of doors and whatever moves [s].")
       .def_property("environment_rotation", &Session::environment_rotation,
                     &Session::set_environment_rotation,

@@ -67,14 +67,14 @@ py::dict layers(const LoadedScene& scene, trace::RenderState state) {
   const auto add = [&](const std::string& name, const image::Image& sum) {
     all[py::str(name)] = array_of(trace::resolve(sum, state.passes_done));
   };
-  add("color", state.color);
-  add("direct", state.direct);
-  add("indirect", state.indirect);
-  add("albedo", state.albedo);
-  add("normal", state.normal);
-  add("depth", state.depth);
   const std::vector<std::string> groups = scene::light_groups(scene.scene());
-  for (std::size_t g = 0; g < state.groups.size(); ++g) add("group " + groups[g], state.groups[g]);
+  for (const trace::RenderLayer layer : trace::render_layers()) {
+    if (layer == trace::RenderLayer::coverage) continue;
+    const std::span<const image::Image> images = trace::images_of(state, layer);
+    for (std::size_t i = 0; i < images.size(); ++i)
+      add(layer == trace::RenderLayer::groups ? "group " + groups[i] : std::string(name_of(layer)),
+          images[i]);
+  }
   return all;
 }
 
@@ -84,10 +84,10 @@ py::dict methods_and_parameters() {
   for (const methods::MethodEntry& entry : methods::all_methods()) {
     py::dict parameters;
     for (const methods::MethodParameter& p : entry.parameters)
-      parameters[p.name] = py::dict(
-          "default"_a = p.choices.empty() ? py::object(py::float_(p.value))
-                                          : py::object(py::str(p.choices[static_cast<std::size_t>(p.value)])),
-          "least"_a = p.least, "most"_a = p.most, "choices"_a = p.choices, "about"_a = p.about);
+      parameters[p.name] =
+          py::dict("default"_a = p.choices.empty() ? py::object(py::float_(p.value))
+                                                   : py::object(py::str(p.choices[p.value])),
+                   "least"_a = p.least, "most"_a = p.most, "choices"_a = p.choices, "about"_a = p.about);
     all[entry.name] = py::dict("about"_a = entry.about, "parameters"_a = parameters);
   }
   return all;
@@ -130,9 +130,10 @@ void add_render(py::module_& m) {
   const auto add = [&](const char* name, const auto& function, const char* about) {
     m.def(name, function, about, "scene"_a, "method"_a = "path", py::kw_only(), "probes"_a = none,
           "param"_a = Parameters(), "camera"_a = "", "width"_a = 1280, "height"_a = 720,
-          "projection"_a = "camera", "at"_a = none, "max_depth"_a = rays::usual_max_depth, "passes"_a = 1,
-          "spp"_a = 16, "seed"_a = 0, "lookup"_a = "irradiance", "weights"_a = none, "light"_a = "sum",
-          "force"_a = false, "progress"_a = none);
+          "projection"_a = name_of(pipeline::PictureProjection::camera), "at"_a = none,
+          "max_depth"_a = rays::usual_max_depth, "passes"_a = 1, "spp"_a = 16, "seed"_a = 0,
+          "lookup"_a = name_of(probes::LookupSpec{}.method), "weights"_a = none,
+          "light"_a = name_of(probes::LookupSpec{}.layer), "force"_a = false, "progress"_a = none);
   };
   add("render", picture, "A picture of a scene: linear radiance, height x width x 3.");
   add("render_layers", pictures,

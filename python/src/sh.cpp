@@ -155,7 +155,7 @@ void add_sh(py::module_& parent) {
         "coefficients"_a, "window"_a = "auto", py::kw_only(), "width"_a = py::none());
   m.def("minimum", &minimum, "Lowest value over the sphere, of each colour.", "coefficients"_a);
   m.def("convert", &convert, "Coefficients in the convention of another program.", "coefficients"_a, "to"_a,
-        py::kw_only(), "from_convention"_a = "ssphh");
+        py::kw_only(), "from_convention"_a = name_of(sh::Convention::ssphh));
 }
 
 }  // namespace ssphh::python

@@ -29,9 +29,21 @@ def defined(body):
         elif isinstance(node, ast.AnnAssign):
             found[node.target.id] = node
         elif isinstance(node, ast.ImportFrom) and node.level:
-            topic = defined(stub(f"{node.module}.pyi").body) if node.module else {}
+            body_of_topic = stub(f"{node.module}.pyi").body if node.module else []
+            topic = {name: call_of(of, body_of_topic) for name, of in defined(body_of_topic).items()}
             found.update({alias.asname: topic.get(alias.name, node) for alias in node.names if alias.asname})
     return {name: node for name, node in found.items() if not name.startswith("_") or name.startswith("__")}
+
+
+def call_of(node, topic):
+    """What a name's stub says of its call: of a name that is annotated with a Protocol of its file that one's."""
+    if not isinstance(node, ast.AnnAssign):
+        return node
+    protocol = node.annotation.value if isinstance(node.annotation, ast.Subscript) else node.annotation
+    for cls in topic:
+        if isinstance(cls, ast.ClassDef) and cls.name == getattr(protocol, "id", None):
+            return next(m for m in cls.body if isinstance(m, ast.FunctionDef) and m.name == "__call__")
+    return node
 
 
 def stub_arguments(function):

@@ -76,7 +76,7 @@ TEST_F(BakeWatch, FollowsSavesUntilCtrlC) {
   EXPECT_EQ(result["rounds"][0]["changed"][0]["name"], "l");
   EXPECT_EQ(result["rounds"][0]["probes_baked"], 5);
   EXPECT_GT(result["rounds"][0]["picture_was_off"].number(), 0.01);
-  EXPECT_THAT(result["rounds"][1].text_or("problem", ""), HasSubstr("not valid JSON"));
+  EXPECT_THAT(result["rounds"][1]["problem"].string(), HasSubstr("not valid JSON"));
   EXPECT_TRUE(result["rounds"][2]["problem"].is_null());
 }
 

@@ -60,7 +60,7 @@ TEST(Commands, SceneInfoCountsWhatTheSceneHoldsInItsPose) {
   const auto door = std::ranges::find(scene.nodes, true, &scene::Node::movable) - scene.nodes.begin();
   const auto leaf = std::ranges::find(scene.instances, static_cast<int>(door), &scene::Instance::node);
   ASSERT_NE(leaf, scene.instances.end());
-  for (vec3& p : scene.meshes[static_cast<std::size_t>(leaf->mesh)].positions) p *= 20.0f;
+  for (vec3& p : scene.meshes[leaf->mesh].positions) p *= 20.0f;
   scene.sphls[0].node = static_cast<int>(scene.nodes.size());
   scene::Node& handle = scene.nodes.emplace_back();
   handle.parent = static_cast<int>(door), handle.local.translation = vec3(1), handle.movable = true;
@@ -231,11 +231,11 @@ TEST(Commands, BrokerAndWorkerServeUntilTheyAreStopped) {
   BrokerSettings broker;
   broker.broker.bind = choice.endpoint;
   std::vector<std::string> events;
-  broker.broker.on_event = [&](const majordomo::BrokerEvent& event) { events.emplace_back(event.name); };
   std::promise<majordomo::Broker*> listens;
   bool ended = false;
   std::thread serving([&] {
-    run_broker(broker, {[&](majordomo::Broker& b) { listens.set_value(&b); }, [&] { ended = true; }});
+    run_broker(broker, {[&](majordomo::Broker& b) { listens.set_value(&b); }, [&] { ended = true; },
+                        [&](const majordomo::BrokerEvent& event) { events.emplace_back(event.name); }});
   });
   majordomo::Broker* running = listens.get_future().get();
   EXPECT_EQ(running->endpoint(), choice.endpoint);

@@ -286,7 +286,7 @@ TEST(Commands, CompareMeasuresAndFailsForWhatIsNoNumber) {
   test.pixels = {1.5f, 1.5f, 1.5f, 1, 1, 1};
   CompareOptions options;
   options.reference = dir / "a.exr", options.test = dir / "b.exr", options.output = dir / "map.exr";
-  options.map = ErrorMap::with_sign;
+  options.map = metrics::ErrorMap::with_sign;
   image::write_image(options.reference, reference);
   image::write_image(options.test, test);
   const CompareResult result = run_compare(options);

@@ -42,7 +42,7 @@ TEST(EmptyValues, OfResults) {
   EXPECT_FALSE(context.json);
   EXPECT_EQ(context.seed, 0u);
   EXPECT_EQ(context.threads, 0);
-  EXPECT_EQ(context.progress, "auto");
+  EXPECT_EQ(context.progress, ProgressStyle::automatic);
   EXPECT_EQ(context.exit_code, 0);
 }
 

@@ -27,8 +27,7 @@ using test::text_here;
 class FailingFarm : public testing::Test {
  protected:
   FailingFarm()
-      : broker_(
-            {.bind = endpoint_, .limits = {.attempts = 1}, .on_event = [](const majordomo::BrokerEvent&) {}}),
+      : broker_({.bind = endpoint_, .limits = {.attempts = 1}}, [](const majordomo::BrokerEvent&) {}),
         serving_([this] { broker_.run(); }),
         worker_({.endpoint = endpoint_, .service = "gen", .name = "w1"}),
         working_([this] {

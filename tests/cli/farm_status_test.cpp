@@ -103,6 +103,13 @@ TEST(FarmStatus, ShowsEveryNumberInItsPlace) {
   EXPECT_EQ(told["workers"].size(), 2u);
 }
 
+TEST(FarmStatus, AnAnswerThatLacksItsPartsIsRefusedWithItsPlace) {
+  const ToldBroker broker(
+      Answers{{"mmi.stats", {R"({"now": {}, "total": {}})"}}, {"mmi.workers", {workers}}});
+  EXPECT_EQ(test::problem_here({"farm", "status", "--broker", broker.endpoint()}),
+            "mmi.stats: \"services\" is missing");
+}
+
 // 400 jobs between two looks that are a tenth of a second apart, and 40 left.
 TEST(FarmTop, TellsRateAndTimeLeftFromTheSecondLookOn) {
   const ToldBroker broker(Answers{{"mmi.stats", {stats(13), stats(413)}}, {"mmi.workers", {workers}}});

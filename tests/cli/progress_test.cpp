@@ -22,16 +22,6 @@ std::string told(ProgressStyle style, std::uint64_t total, std::uint64_t done, c
   return testing::internal::GetCapturedStderr();
 }
 
-TEST(Progress, StylesHaveNames) {
-  EXPECT_EQ(progress_style("none"), ProgressStyle::none);
-  EXPECT_EQ(progress_style("json"), ProgressStyle::json);
-  EXPECT_EQ(progress_style("bar"), ProgressStyle::bar);
-  EXPECT_EQ(progress_style("plain"), ProgressStyle::plain);
-  testing::internal::CaptureStderr();  // a file
-  EXPECT_EQ(progress_style("auto"), ProgressStyle::plain) << "no terminal";
-  testing::internal::GetCapturedStderr();
-}
-
 TEST(Progress, NoneSaysNothing) {
   EXPECT_EQ(told(ProgressStyle::none, 10, 10), "");
 }

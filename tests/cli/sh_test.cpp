@@ -59,8 +59,7 @@ class ShTool : public testing::Test {
     ASSERT_EQ(object["coefficients"].size(), wanted.size());
     for (std::size_t k = 0; k < wanted.size(); ++k) {
       for (int c = 0; c < 3; ++c)
-        EXPECT_EQ(test::float_of(object["coefficients"][k][static_cast<std::size_t>(c)]), wanted[k][c])
-            << k << " " << c;
+        EXPECT_EQ(test::float_of(object["coefficients"][k][c]), wanted[k][c]) << k << " " << c;
     }
   }
 
@@ -86,8 +85,7 @@ TEST_F(ShTool, EvalGivesEveryBandOfTheUnitDirection) {
 TEST_F(ShTool, IrradianceIsOnASurfaceWithTheNormal) {
   const vec3 wanted = sh::irradiance(light_, glm::normalize(vec3(3, 4, -12)));
   const json::Value found = json_here(sh("irradiance", {"--normal", "3", "4", "-12"}))["irradiance"];
-  for (int c = 0; c < 3; ++c)
-    EXPECT_NEAR(test::float_of(found[static_cast<std::size_t>(c)]), wanted[c], 1e-6f) << c;
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(test::float_of(found[c]), wanted[c], 1e-6f) << c;
   EXPECT_EQ(text_here(sh("irradiance", {"--normal", "3", "4", "-12"})),
             fmt::format("{:.6g} {:.6g} {:.6g}", wanted.x, wanted.y, wanted.z));
 }
@@ -159,8 +157,7 @@ TEST_F(ShTool, RotateTurnsByAxisAndAngleOrByAQuaternion) {
     EXPECT_EQ(object["degree"], 3);
     for (std::size_t k = 0; k < 16; ++k)
       for (int i = 0; i < 3; ++i)
-        EXPECT_NEAR(test::float_of(object["coefficients"][k][static_cast<std::size_t>(i)]),
-                    wanted.values[k][i], 1e-5f);
+        EXPECT_NEAR(test::float_of(object["coefficients"][k][i]), wanted.values[k][i], 1e-5f);
   };
   near(json_here(sh("rotate", {"--axis", "2", "4", "-4", "--angle", "30"})));
   near(json_here(sh("rotate", {"--quaternion", std::to_string(2 * s), std::to_string(4 * s),
@@ -186,7 +183,7 @@ TEST_F(ShTool, ConvertGoesToAConventionAndBack) {
   for (std::size_t k = 0; k < 9; ++k)
     EXPECT_NEAR(test::float_of(back["coefficients"][k][1]), light_.values[k].y, 1e-6f);
   EXPECT_THAT(problem_here({"sh", "convert", dir_ / "u.json", "--to", "three"}),
-              AllOf(HasSubstr("is in convention \"unity\", not \"ssphh\""), HasSubstr("--from CONVENTION")));
+              AllOf(HasSubstr("convention: is \"unity\", not \"ssphh\""), HasSubstr("--from CONVENTION")));
   EXPECT_THAT(problem_here(sh("convert", {"--to", "maya"})),
               HasSubstr("--to: no convention is called \"maya\""));
   EXPECT_THAT(problem_here(sh("convert", {"--from", "maya", "--to", "three"})),
@@ -231,20 +228,21 @@ TEST_F(ShTool, FilesThatAreNoCoefficientsAreToldWhy) {
     std::ofstream(file_) << text;
     return test::message_of([&] { app::read_radiance_sh(file_); });
   };
-  EXPECT_THAT(problem("[]"), AllOf(HasSubstr("is no JSON object"), HasSubstr("expected {\"degree\": N")));
+  for (const char* other : {"[]", R"({"degree": 1})", R"({"coefficients": []})"})
+    EXPECT_THAT(problem(other),
+                AllOf(HasSubstr("holds no coefficients"), HasSubstr("expected {\"degree\": N")));
   EXPECT_THAT(problem(std::string(9, '[')), HasSubstr("nested deeper than 8 levels"));
-  EXPECT_THAT(problem(R"({"degree": 1.5, "coefficients": []})"), HasSubstr("no whole number \"degree\""));
-  EXPECT_THAT(problem(R"({"degree": 1})"), HasSubstr("no array \"coefficients\""));
-  EXPECT_THAT(problem(R"({"degree": 11, "coefficients": []})"), HasSubstr("degree 11 is outside 0..10"));
-  EXPECT_THAT(problem(R"({"degree": -1, "coefficients": []})"), HasSubstr("degree -1 is outside 0..10"));
+  EXPECT_THAT(problem(R"({"degree": 1.5, "coefficients": []})"),
+              HasSubstr("degree: 1.5 must be an integer from 0 to 10"));
+  EXPECT_THAT(problem(R"({"degree": 11, "coefficients": []})"), HasSubstr("degree: 11 must be an integer"));
+  EXPECT_THAT(problem(R"({"degree": -1, "coefficients": []})"), HasSubstr("degree: -1 must be an integer"));
   EXPECT_THAT(problem(R"({"degree": 1, "coefficients": [[1, 2, 3]]})"),
-              HasSubstr("degree 1 has 4 coefficients, but 1 are given"));
+              HasSubstr("coefficients: must have 4 elements, not 1"));
   EXPECT_THAT(problem(R"({"degree": 0, "coefficients": [[1, 2]]})"),
-              HasSubstr("coefficients[0] is not [r, g, b]"));
+              HasSubstr("coefficients[0]: must have 3 elements, not 2"));
   EXPECT_THAT(problem(R"({"degree": 0, "coefficients": [[1, 2, "3"]]})"),
-              HasSubstr("coefficients[0] holds something that is no number"));
-  EXPECT_THAT(problem(R"({"degree": 0, "coefficients": [[1, 2, 1e39]]})"),
-              HasSubstr("coefficients[0] does not fit a finite"));
+              HasSubstr("coefficients[0][2]: must be a number, not string"));
+  EXPECT_THAT(problem(R"({"degree": 0, "coefficients": [[1, 2, 1e39]]})"), HasSubstr("coefficients[0][2]"));
   EXPECT_EQ(problem(R"({"degree": 0, "coefficients": [[1, 2, 3]], "deep": [[[[[[1]]]]]]})"), "no error");
   EXPECT_THAT(problem(R"({"degree": 0, "coefficients": [[1, 2, 3]], "deep": [[[[[[[[[1]]]]]]]]]})"),
               HasSubstr("nested deeper than 8 levels"));

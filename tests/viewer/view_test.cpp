@@ -68,7 +68,7 @@ TEST_F(View, AnOpenedDoorBrightensTheRoomBehindIt) {
       {"--camera", "room-b", "--stats", path("times.json"), "--script",
        script("settle\nscreenshot " + path("shut.png") + "\ntime 1\nsettle\nscreenshot " + path("open.png") +
               "\nlight lamp off\nsettle\nscreenshot " + path("off.png") + "\nquit\n")}));
-  expect_keys(run, {"frames", "renderer", "probes", "median_ms", "p99_ms", "written"});
+  expect_keys(run, {"frames", "renderer", "probes", "median_ms", "p99_ms", "geometry_builds", "written"});
   EXPECT_EQ(run["probes"], 6);
   ASSERT_TRUE(exists("shut.png") && exists("open.png") && exists("off.png"));
   // 8-bit pictures: a dark room has at most a step or two of light in it.
@@ -199,6 +199,13 @@ TEST_F(View, AnswersTheWindowSystemsMouseAndKeys) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   const auto a = image::read_image(path("two-rooms-01.png")), b = image::read_image(path("two-rooms-02.png"));
   EXPECT_NE(a.pixels, b.pixels) << "the drag turned the view";
+}
+
+TEST_F(View, BuildsAccelerationStructuresOnce) {
+  const json::Value run =
+      run_json({"view", "builtin:two-rooms", "--size", "64x64", "--no-panels", "--records", "0", "--show",
+                "truth", "--truth-spp", "1", "--screenshot", path("truth.png")});
+  EXPECT_EQ(run["geometry_builds"], 1) << "for light that follows, what is picked and traced truth";
 }
 
 TEST_F(View, SaysWhatIsWrongWithItsInput) {

@@ -32,25 +32,24 @@ void ignore_signals() {
 }
 
 /// The endpoint is the one line on stdout that scripts wait for; with JSON all events stand there.
-void serve(const Context& context, BrokerSettings& settings) {
+void serve(const Context& context, const BrokerSettings& settings) {
   const auto print = [](const std::string& line) { std::cout << line << std::endl; };
-  if (context.json) {
-    settings.broker.on_event = [print](const majordomo::BrokerEvent& event) { print(event.json()); };
-  }
+  majordomo::BrokerEventSink event;
+  if (context.json) event = [print](const majordomo::BrokerEvent& told) { print(told.json()); };
   set_log_level(settings.verbose ? LogLevel::debug : LogLevel::info);
   const auto ready = [&](majordomo::Broker& broker) {
     stop_at_signals(broker);
-    const majordomo::BrokerEvent event = ready_event(broker.endpoint(), broker.metrics_endpoint());
-    print(context.json ? event.json() : broker.endpoint());
-    if (!context.json) log_info("{}", event.text());
+    const majordomo::BrokerEvent listens = ready_event(broker.endpoint(), broker.metrics_endpoint());
+    print(context.json ? listens.json() : broker.endpoint());
+    if (!context.json) log_info("{}", listens.text());
   };
-  run_broker(settings, {ready, ignore_signals});
+  run_broker(settings, {ready, ignore_signals, event});
 }
 
 }  // namespace
 
 void run_broker(const BrokerSettings& settings, const BrokerCalls& calls) {
-  majordomo::Broker broker(broker_options(settings));
+  majordomo::Broker broker(broker_options(settings), calls.event);
   const struct Last {
     ~Last() {
       if (ended) ended();

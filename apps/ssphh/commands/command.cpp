@@ -21,8 +21,7 @@ Command add_command(Command parent, Context& context, const std::string& name, c
   common.option("--seed", context.seed, "Seed of all random numbers; the same seed gives the same bits");
   common.option("--threads", context.threads, "Worker threads; 0: all. Does not change results")
       .range(0, 4096);
-  common.option("--progress", context.progress, "Progress on stderr: auto, bar, plain, json or none")
-      .one_of({"auto", "bar", "plain", "json", "none"});
+  common.choice("--progress", context.progress, "Progress on stderr: auto, bar, plain, json or none");
   command.when_chosen([&context, action = std::move(action)] { context.run = action; });
   return command;
 }

@@ -12,6 +12,7 @@
 #include <ssphh/core/json.h>
 
 #include "options/command_line.h"
+#include "results/stderr_progress.h"
 
 namespace ssphh::app {
 
@@ -20,7 +21,7 @@ struct Context {
   bool json = false;
   std::uint64_t seed = 0;
   int threads = 0;
-  std::string progress = "auto";
+  ProgressStyle progress = ProgressStyle::automatic;
   Control control;            ///< progress on stderr, cancelled by Ctrl-C
   std::function<void()> run;  ///< set by the chosen command while options are parsed
   int exit_code = 0;          ///< of a command that gave a result and still has to report a failure

@@ -9,6 +9,7 @@
 #include <ssphh/image/io.h>
 #include <ssphh/metrics/heat_map.h>
 #include <ssphh/metrics/mask.h>
+#include <ssphh/trace/render_state.h>
 
 #include "commands/command.h"
 #include "results/json_values.h"
@@ -18,6 +19,8 @@ namespace ssphh::app {
 namespace {
 
 using image::Image;
+using metrics::ErrorMap;
+using trace::RenderLayer;
 
 Image read_exposed(const std::string& path, float exposure) {
   Image image = image::read_image(path);
@@ -45,10 +48,10 @@ CompareResult measure(const CompareOptions& options, const Image& reference, con
   return e;
 }
 
-/// The picture NAME of `render --aov` that stands beside another; an optional one is empty where there is
-/// none.
-Image aov_beside(const std::string& picture, const std::string& name, bool optional = false) {
-  const std::filesystem::path path = beside(picture, name + ".exr");
+/// The picture of a layer, written by `render --aov`, that stands beside another; an optional one is empty
+/// where there is none.
+Image aov_beside(const std::string& picture, RenderLayer layer, bool optional = false) {
+  const std::filesystem::path path = beside(picture, fmt::format("{}.exr", name_of(layer)));
   if (std::filesystem::exists(path)) return image::read_image(path);
   if (optional) return {};
   throw Error(path.string(), "is not there, and false edges are looked for in it",
@@ -58,11 +61,14 @@ Image aov_beside(const std::string& picture, const std::string& name, bool optio
 
 /// Of the indirect light alone; `test` becomes that of the test.
 metrics::FalseEdges edges_between(const CompareOptions& options, const Image& mask, Image& test) {
-  metrics::SurfacePicture truth{
-      aov_beside(options.reference, "indirect"), aov_beside(options.reference, "albedo"),
-      aov_beside(options.reference, "normal"), aov_beside(options.reference, "depth")};
-  metrics::SurfacePicture found{
-      aov_beside(options.test, "indirect"), aov_beside(options.test, "albedo", true), {}, {}};
+  metrics::SurfacePicture truth{aov_beside(options.reference, RenderLayer::indirect),
+                                aov_beside(options.reference, RenderLayer::albedo),
+                                aov_beside(options.reference, RenderLayer::normal),
+                                aov_beside(options.reference, RenderLayer::depth)};
+  metrics::SurfacePicture found{aov_beside(options.test, RenderLayer::indirect),
+                                aov_beside(options.test, RenderLayer::albedo, true),
+                                {},
+                                {}};
   if (found.albedo.empty()) found.albedo = truth.albedo;
   if (!mask.empty()) truth.indirect = metrics::masked(truth.indirect, mask);
   metrics::FalseEdges edges = metrics::false_edges(truth, found);

@@ -14,18 +14,6 @@
 
 namespace ssphh::app {
 
-/// |d|, d with its sign, the sum of |d| in each block, d² over the reference's, FLIP, false edges.
-enum class ErrorMap { absolute, with_sign, pixelated, relmse, flip, edges };
-constexpr auto enum_table(ErrorMap) {
-  using enum ErrorMap;
-  return std::to_array<EnumName<ErrorMap>>({{absolute, "absolute"},
-                                            {with_sign, "signed"},
-                                            {pixelated, "pixelated"},
-                                            {relmse, "relmse"},
-                                            {flip, "flip"},
-                                            {edges, "edges"}});
-}
-
 struct CompareOptions {
   std::string reference, test;  ///< image files of one size: .exr .hdr .png .jpg
   std::string mask;             ///< picture that is white where to measure; empty: everywhere
@@ -38,7 +26,7 @@ struct CompareOptions {
   bool allow_nonfinite = false;  ///< infinite pixels and NaN are no failure
 
   std::string output;  ///< error map to write: .png (colours) or .exr (numbers); empty: none
-  ErrorMap map = ErrorMap::absolute;
+  metrics::ErrorMap map = metrics::ErrorMap::absolute;
   float scale = 0;  ///< error shown in the last colour of a .png; 0: the 99th percentile, for flip 1
 };
 

@@ -16,18 +16,17 @@
 namespace ssphh::app {
 namespace {
 
-double seconds(const json::Value& object, const char* key) {
-  return object.number_or(key, 0) / 1000;
-}
+const std::string stats_service = "mmi.stats", workers_service = "mmi.workers";
 
-std::uint64_t count(const json::Value& object, const char* key) {
-  return static_cast<std::uint64_t>(object.number_or(key, 0));
+std::uint64_t count(const json::Cursor& of, const char* name) {
+  return static_cast<std::uint64_t>(told_number(of, name));
 }
 
 /// Without questions to the broker, as those of `top` itself, which its totals count as well.
 double finished_jobs(const json::Value& stats) {
   double sum = 0;
-  for (const json::Value& service : stats["services"].elements()) sum += service.number_or("finished", 0);
+  for (const json::Cursor& service : json::elements(json::Cursor(stats, stats_service)["services"]))
+    sum += told_number(service, "finished");
   return sum;
 }
 
@@ -47,32 +46,33 @@ FarmStatus run_farm_status(const BrokerChoice& broker, const Control& control) {
 }
 
 json::Value to_json(const FarmStatus& s, const BrokerChoice&) {
-  return {{"stats", s.stats}, {"workers", s.workers["workers"]}};
+  return {{"stats", s.stats}, {"workers", json::Cursor(s.workers, workers_service)["workers"].value()}};
 }
 
 std::string to_text(const FarmStatus& s, const BrokerChoice&) {
-  const json::Value &now = s.stats["now"], &total = s.stats["total"];
+  const json::Cursor stats(s.stats, stats_service), workers(s.workers, workers_service);
+  const json::Cursor now = stats["now"], total = stats["total"];
   std::string text =
       fmt::format("{} ({} idle), {} queued, {} running, {} finished, {}, {} parked",
                   counted(count(now, "workers"), "worker"), count(now, "idle"),
                   counted(count(now, "queued"), "job"), count(now, "running"), count(total, "finished"),
                   counted(count(total, "retries"), "retry", "retries"), count(total, "parked"));
   if (s.per_second) {
-    const double left = now.number_or("queued", 0) + now.number_or("running", 0);
+    const double left = told_number(now, "queued") + told_number(now, "running");
     text += fmt::format("\n{:.2f} jobs/s", *s.per_second);
     if (*s.per_second > 0 && left > 0) text += fmt::format(", about {:.0f} s left", left / *s.per_second);
   }
   text += fmt::format("\n{:<48} {:>7} {:>6} {:>7} {:>9}", "service", "workers", "idle", "queued", "finished");
-  for (const json::Value& service : s.stats["services"].elements()) {
-    text += fmt::format("\n{:<48} {:>7} {:>6} {:>7} {:>9}", service.text_or("name", ""),
-                        service.number_or("workers", 0), service.number_or("idle", 0),
-                        service.number_or("queued", 0), service.number_or("finished", 0));
+  for (const json::Cursor& service : json::elements(stats["services"])) {
+    text +=
+        fmt::format("\n{:<48} {:>7} {:>6} {:>7} {:>9}", service.text_or("name"), count(service, "workers"),
+                    count(service, "idle"), count(service, "queued"), count(service, "finished"));
   }
   text += fmt::format("\n{:<30} {:<8} {:>9} {:>7}  {}", "worker", "state", "for", "served", "service");
-  for (const json::Value& worker : s.workers["workers"].elements()) {
-    text += fmt::format("\n{:<30} {:<8} {:>7.1f} s {:>7}  {}", worker.text_or("name", ""),
-                        worker.text_or("state", ""), seconds(worker, "since_ms"),
-                        worker.number_or("served", 0), worker.text_or("service", ""));
+  for (const json::Cursor& worker : json::elements(workers["workers"])) {
+    text += fmt::format("\n{:<30} {:<8} {:>7.1f} s {:>7}  {}", worker.text_or("name"),
+                        worker.text_or("state"), told_number(worker, "since_ms") / 1000,
+                        count(worker, "served"), worker.text_or("service"));
   }
   return text;
 }
@@ -83,7 +83,8 @@ void run_farm_top(const FarmTopOptions& o, const std::function<void(const FarmSt
   std::optional<double> before;
   Stopwatch watch;
   for (int i = 0; o.count == 0 || i < o.count; ++i) {
-    FarmStatus status{ask_json(client, "mmi.stats", control), ask_json(client, "mmi.workers", control), {}};
+    FarmStatus status{
+        ask_json(client, stats_service, control), ask_json(client, workers_service, control), {}};
     const double finished = finished_jobs(status.stats);
     if (before) status.per_second = std::max(0.0, finished - *before) / watch.seconds();
     before = finished, watch = {};

@@ -30,4 +30,9 @@ json::Value ask_json(majordomo::Client& client, const std::string& service, cons
   return object;
 }
 
+double told_number(const json::Cursor& of, const char* name) {
+  const auto number = of.find(name);
+  return number ? number->precise_number() : 0;
+}
+
 }  // namespace ssphh::app

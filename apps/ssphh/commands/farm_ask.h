@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include <ssphh/core/json.h>
+#include <ssphh/core/json_cursor.h>
 #include <ssphh/majordomo/client.h>
 
 #include "commands/command.h"
@@ -18,7 +18,10 @@ majordomo::Client connect(const BrokerChoice& choice);
 /// none comes within five seconds.
 std::string ask(majordomo::Client& client, const std::string& service, const std::string& body,
                 const Control& control, const std::string& not_found = "the broker does not know it");
+/// The same as an object of JSON, which a Cursor reads with the service as its file.
 json::Value ask_json(majordomo::Client& client, const std::string& service, const Control& control);
+/// A number that the answer may leave out, as older brokers do: 0 then.
+double told_number(const json::Cursor& of, const char* name);
 
 /// `ssphh farm parked`, `release` and `drop`.
 void add_farm_parked_commands(Command group, Context& context);

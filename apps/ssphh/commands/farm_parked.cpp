@@ -10,6 +10,8 @@
 namespace ssphh::app {
 namespace {
 
+const std::string parked_service = "mmi.parked";
+
 int tell(const FarmJobsOptions& choice, const std::string& service, const Control& control) {
   if (choice.jobs.empty() && !choice.all)
     throw Error("jobs", "none are named", "give their numbers (`ssphh farm parked`) or --all");
@@ -34,7 +36,8 @@ void add_choice(Command command, FarmJobsOptions& choice) {
 
 FarmParkedResult run_farm_parked(const BrokerChoice& broker, const Control& control) {
   majordomo::Client client = connect(broker);
-  return {ask_json(client, "mmi.parked", control)["jobs"]};
+  const json::Value answer = ask_json(client, parked_service, control);
+  return {json::Cursor(answer, parked_service)["jobs"].value()};
 }
 
 json::Value to_json(const FarmParkedResult& result, const BrokerChoice&) {
@@ -42,18 +45,15 @@ json::Value to_json(const FarmParkedResult& result, const BrokerChoice&) {
 }
 
 std::string to_text(const FarmParkedResult& result, const BrokerChoice&) {
-  const json::Value& jobs = result.jobs;
-  if (jobs.empty()) return "no job is set aside";
   std::string text;
-  for (const json::Value& job : jobs.elements()) {
+  for (const json::Cursor& job : json::elements(json::Cursor(result.jobs, parked_service, "jobs"))) {
     text += fmt::format("{}job {} of {}, {:.1f} KB, set aside {:.0f} s ago", text.empty() ? "" : "\n",
-                        job.number_or("job", 0), job.text_or("service", ""), 1e-3 * job.number_or("bytes", 0),
-                        1e-3 * job.number_or("since_ms", 0));
-    if (const json::Value* failures = job.find("failures"); failures && failures->is_array()) {
-      for (const json::Value& failure : failures->elements()) text += "\n  " + failure.string();
-    }
+                        told_number(job, "job"), job.text_or("service"), 1e-3 * told_number(job, "bytes"),
+                        1e-3 * told_number(job, "since_ms"));
+    if (!job.has("failures")) continue;
+    for (const json::Cursor& failure : json::elements(job["failures"])) text += "\n  " + failure.text();
   }
-  return text;
+  return text.empty() ? "no job is set aside" : text;
 }
 
 FarmReleaseResult run_farm_release(const FarmJobsOptions& options, const Control& control) {

@@ -40,7 +40,7 @@ std::string plain(const std::string& group) {
 
 std::vector<std::string> groups_of(const ProbeExportOptions& o, const probes::ProbeSet& set) {
   std::vector<std::string> groups = o.group;
-  if (o.groups == "separate") {
+  if (o.groups == GroupFiles::separate) {
     for (const probes::LightGroup& group : set.light_groups) groups.push_back(group.name);
   }
   std::set<std::string> names;
@@ -150,8 +150,7 @@ void add_probe_export_command(Command group, Context& context) {
                  "Metres between the points of a grid, where the format has one; auto: some 8,000 points");
   const Option some =
       command.option("--group", o.group, "Write this light group alone, to OUT-GROUP").repeatable();
-  command.option("--groups", o.groups, "One file of all light groups, or a file for each, OUT-GROUP")
-      .one_of({"sum", "separate"})
+  command.choice("--groups", o.groups, "One file of all light groups, or a file for each, OUT-GROUP")
       .excludes(some);
   command.flag("--emitted", o.emitted,
                "With light straight from emitters that probes see, for an engine that lacks these lamps");

@@ -14,6 +14,13 @@
 
 namespace ssphh::app {
 
+/// One file of all light groups, or a file for each.
+enum class GroupFiles { sum, separate };
+constexpr auto enum_table(GroupFiles) {
+  using enum GroupFiles;
+  return std::to_array<EnumName<GroupFiles>>({{sum, "sum"}, {separate, "separate"}});
+}
+
 struct ProbeExportOptions {
   SceneOptions scene;              ///< in which the probes were baked; its time is not read
   std::string input;               ///< probe file to read
@@ -21,10 +28,10 @@ struct ProbeExportOptions {
   std::string output;              ///< file to write; the target's ending is added where it is missing
   std::string grid = "auto";       ///< metres between the points of a grid, or auto
   std::vector<std::string> group;  ///< a file for each of these light groups; none: as `groups` says
-  std::string groups = "sum";      ///< one file of all light groups, or a file for each: "separate"
-  bool emitted = false;            ///< light straight from emitters that probes see, too
-  bool list = false;               ///< nothing is read or written: tell of the targets
-  bool force = false;              ///< go on, with a warning, where the probes are of another scene
+  GroupFiles groups = GroupFiles::sum;
+  bool emitted = false;  ///< light straight from emitters that probes see, too
+  bool list = false;     ///< nothing is read or written: tell of the targets
+  bool force = false;    ///< go on, with a warning, where the probes are of another scene
 };
 
 struct ProbeExportResult {

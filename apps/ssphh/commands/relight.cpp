@@ -56,8 +56,7 @@ void add_output_options(const Command& output, RelightOptions& o) {
   output.option("-o,--output", o.output,
                 "Folder for frame-0000.png and so on, and for error.svg with --truth");
   output.option("--pictures", o.pictures, "Draw every so-many-th frame; 0: none").range(0, 1 << 20);
-  output.option("--format", o.format, "Of the frames: png (tone mapped) or exr (linear)")
-      .one_of({"png", "exr"});
+  output.choice("--format", o.format, "Of the frames: png (tone mapped) or exr (linear)");
   add_camera_option(output, o.camera);
   add_size_options(output, o.width, o.height, 16384);
   output.option("--spp", o.spp, "Samples per pixel").range(1, 65536);

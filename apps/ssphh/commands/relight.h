@@ -17,6 +17,13 @@
 
 namespace ssphh::app {
 
+/// Pictures that are tone mapped, or linear.
+enum class FrameFormat { png, exr };
+constexpr auto enum_table(FrameFormat) {
+  using enum FrameFormat;
+  return std::to_array<EnumName<FrameFormat>>({{png, "png"}, {exr, "exr"}});
+}
+
 struct RelightOptions {
   SceneOptions scene;
   PlaceOptions place;                ///< its probes may name a probe file, whose places are taken
@@ -36,12 +43,12 @@ struct RelightOptions {
   probes::WeightMethod weights = probes::WeightMethod::surface;  ///< of lookups for truth and pictures
   int fit_frames = 3;  ///< frames that `fitted` weights are fitted to, evenly spaced over the run, over 0
 
-  std::string output;             ///< folder for pictures and error.svg; empty: neither is written
-  int pictures = 1;               ///< every so-many-th frame is drawn; 0: none
-  std::string format = "png";     ///< of the pictures: png (tone mapped) or exr (linear)
-  std::string camera;             ///< by name; empty: the scene's first
-  int width = 640, height = 360;  ///< pixels
-  int spp = 8;                    ///< samples per pixel
+  std::string output;                     ///< folder for pictures and error.svg; empty: neither is written
+  int pictures = 1;                       ///< every so-many-th frame is drawn; 0: none
+  FrameFormat format = FrameFormat::png;  ///< of the pictures
+  std::string camera;                     ///< by name; empty: the scene's first
+  int width = 640, height = 360;          ///< pixels
+  int spp = 8;                            ///< samples per pixel
   std::optional<float> exposure;  ///< of png, in stops; none: what suits the first frame that is not black
   std::string save;  ///< probe file to write of the last frame, or, numbered, of every key; empty: none
 };

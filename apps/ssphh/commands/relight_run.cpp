@@ -48,7 +48,7 @@ void warn_about_places(const std::vector<scene::ProbePlace>& places, const rays:
   for (const study::LintProblem& problem : study::lint_places(set, source, params, control)) {
     const bool swept = problem.kind == study::ProbeProblem::swept;
     if (problem.kind != study::ProbeProblem::inside && !(swept && parts_move)) continue;
-    log_warning("probe \"{}\" {}", set.probes[static_cast<std::size_t>(problem.probe)].name, problem.message);
+    log_warning("probe \"{}\" {}", set.probes[problem.probe].name, problem.message);
   }
 }
 
@@ -215,8 +215,7 @@ class Relighting {
                                             const Control& control) const {
     std::vector<vec3> origins;
     const std::vector<mat4> world = scene::world_matrices(scene_, time);
-    for (const scene::Camera& camera : scene_.cameras)
-      origins.emplace_back(world[static_cast<std::size_t>(camera.node)][3]);
+    for (const scene::Camera& camera : scene_.cameras) origins.emplace_back(world[camera.node][3]);
     for (const scene::ProbePlace& place : session.places()) origins.push_back(place.position);
     return study::reachable_points(source_, origins, time, {o_.points, o_.seed}, control);
   }
@@ -282,7 +281,7 @@ class Relighting {
     trace::RenderState state;
     tracer.render_with(lookup, params, state, control);
     const image::Image picture = trace::resolve(state.color, state.passes_done);
-    const fs::path path = fs::path(o_.output) / fmt::format("frame-{:04}.{}", kept.frame, o_.format);
+    const fs::path path = fs::path(o_.output) / fmt::format("frame-{:04}.{}", kept.frame, name_of(o_.format));
     if (is_display_format(path)) shown_at_ = exposure_.of(picture);
     write_picture(path, picture, {.exposure = shown_at_.value_or(0)});
   }

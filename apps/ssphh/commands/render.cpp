@@ -50,7 +50,7 @@ trace::RenderParams render_params(const RenderOptions& o, const scene::Scene& sc
   params.height = o.height;
   params.camera = camera_of(scene, o.camera, o.scene.time, geometry);
   params.path = {o.max_depth, o.passes, o.spp, o.seed};
-  for (const std::string& aov : o.aovs) params.per_group |= aov == "groups";
+  params.per_group = std::ranges::count(o.aovs, trace::RenderLayer::groups) > 0;
   params.projection = projection_of(o.projection, params.camera.camera);
   if (!o.at.empty()) {
     if (o.projection == PictureProjection::camera)
@@ -65,19 +65,15 @@ trace::RenderParams render_params(const RenderOptions& o, const scene::Scene& sc
 // OUT.exr gives OUT.albedo.exr and so on: float data, whatever the format of the picture.
 void write_aovs(const RenderOptions& o, const trace::RenderState& state,
                 const std::vector<std::string>& groups) {
-  const auto write = [&](const std::string& name, const image::Image& sum) {
-    image::write_image(beside(o.output, name + ".exr"), trace::resolve(sum, state.passes_done));
-  };
-  for (const std::string& aov : o.aovs) {
-    if (aov == "direct") write(aov, state.direct);
-    if (aov == "indirect") write(aov, state.indirect);
-    if (aov == "albedo") write(aov, state.albedo);
-    if (aov == "normal") write(aov, state.normal);
-    if (aov == "depth") write(aov, state.depth);
-    if (aov == "groups") {
-      const std::vector<std::string> names = file_parts(groups);
-      for (std::size_t g = 0; g < state.groups.size(); ++g) write("group." + names[g], state.groups[g]);
+  for (const trace::RenderLayer layer : o.aovs) {
+    std::vector<std::string> names = {std::string(name_of(layer))};
+    if (layer == trace::RenderLayer::groups) {
+      names = file_parts(groups);
+      for (std::string& name : names) name = "group." + name;
     }
+    const std::span<const image::Image> images = trace::images_of(state, layer);
+    for (std::size_t i = 0; i < images.size(); ++i)
+      image::write_image(beside(o.output, names[i] + ".exr"), trace::resolve(images[i], state.passes_done));
   }
 }
 
@@ -138,11 +134,11 @@ void check_method(const RenderOptions& o) {
     throw Error("--method " + o.method, "is rendered in this process only", "leave out --broker and --local");
 }
 
-/// The images that are written, in the order of farm::layer_names().
-std::vector<std::string> wanted_layers(const RenderOptions& o) {
-  std::vector<std::string> layers = {"color"};
-  for (const std::string& aov : aov_names())
-    if (std::ranges::find(o.aovs, aov) != o.aovs.end()) layers.push_back(aov);
+/// The images that are written, in the order of their table.
+std::vector<trace::RenderLayer> wanted_layers(const RenderOptions& o) {
+  std::vector<trace::RenderLayer> layers;
+  for (const trace::RenderLayer layer : trace::render_layers())
+    if (layer == trace::RenderLayer::color || std::ranges::count(o.aovs, layer) > 0) layers.push_back(layer);
   return layers;
 }
 
@@ -173,9 +169,6 @@ void check_backend(const RenderOptions& o) {
 }  // namespace
 
 RenderResult run_render(const RenderOptions& o, const Control& control) {
-  for (const std::string& aov : o.aovs) {
-    if (std::ranges::count(aov_names(), aov) == 0) throw Error("--aov " + aov, "is no image that there is");
-  }
   if (o.backend == RenderBackend::gl) return render_gl(o, control);
   const GeometryBuilds builds;
   check_method(o);

@@ -23,6 +23,16 @@ bool gl_method(const std::string& name) {
   return name == "ssphh" || name == "direct" || methods::find_method(name).has_light_data;
 }
 
+/// How the real-time renderer draws a layer; none: it cannot.
+std::optional<realtime::View> view_of(trace::RenderLayer layer) {
+  using trace::RenderLayer;
+  if (layer == RenderLayer::direct) return realtime::View::direct;
+  if (layer == RenderLayer::indirect) return realtime::View::indirect;
+  if (layer == RenderLayer::albedo) return realtime::View::albedo;
+  if (layer == RenderLayer::normal) return realtime::View::normal;
+  return {};
+}
+
 void refuse_with_gl(const RenderOptions& o) {
   const auto refuse = [](const std::string& option, const std::string& problem) {
     throw Error(option, problem + " is not for --backend gl", "leave it out, or take --backend cpu");
@@ -44,8 +54,8 @@ void refuse_with_gl(const RenderOptions& o) {
     throw Error(
         "--probes", "method ssphh needs a probe file",
         fmt::format("make one with `ssphh bake {} -o probes.sphl`, or take --max-depth 1", o.scene.source));
-  for (const std::string& aov : o.aovs) {
-    if (aov == "depth" || aov == "groups") refuse("--aov", aov);
+  for (const trace::RenderLayer layer : o.aovs) {
+    if (!view_of(layer)) refuse("--aov", std::string(name_of(layer)));
   }
 }
 
@@ -94,15 +104,10 @@ RenderResult render_gl(const RenderOptions& o, const Control& control) {
   params.width = o.width, params.height = o.height, params.camera = camera;
   params.projection = pipeline::projection_of(o.projection, camera.camera);
   draw_and_write(result, o, marks, geometry, scene, params, control);
-  for (const std::string& aov : o.aovs) {
-    using realtime::View;
-    const View view = aov == "direct"     ? View::direct
-                      : aov == "indirect" ? View::indirect
-                      : aov == "albedo"   ? View::albedo
-                                          : View::normal;
-    image::Image image = draw(view);
+  for (const trace::RenderLayer layer : o.aovs) {
+    image::Image image = draw(*view_of(layer));
     // The view shows 0.5 + 0.5 n, and black where nothing stands.
-    if (view == View::normal) {
+    if (layer == trace::RenderLayer::normal) {
       for (int y = 0; y < image.height; ++y) {
         for (int x = 0; x < image.width; ++x) {
           const vec3 n = image.rgb(x, y);
@@ -110,7 +115,7 @@ RenderResult render_gl(const RenderOptions& o, const Control& control) {
         }
       }
     }
-    image::write_image(beside(o.output, aov + ".exr"), image);
+    image::write_image(beside(o.output, fmt::format("{}.exr", name_of(layer))), image);
   }
   if (live) result.method = live->figures();
   result.gl = {gl.info().renderer, side * side, renderer.method_numbers()};

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/file.h>
+#include <ssphh/core/json_cursor.h>
 #include <ssphh/core/math.h>
 
 namespace ssphh::app {
@@ -14,9 +15,6 @@ namespace {
 
 // A probe is far smaller; this only stops a wrong file from filling memory.
 constexpr std::uint64_t coefficient_file_limit = std::uint64_t{16} << 20;
-
-// ---- the JSON object of coefficients
-// ---------------------------------------------------------------------------
 
 json::Value number(float value) {
   if (!std::isfinite(value))
@@ -64,38 +62,19 @@ std::vector<vec3> read_sh_values(const std::string& path, sh::Convention convent
   const std::string hint =
       "expected {\"degree\": N, \"coefficients\": [[r, g, b], …]} as `ssphh sh project` prints it";
   const json::Value document = json::parse(text, where, {.bytes = coefficient_file_limit, .depth = 8});
-  if (!document.is_object()) throw Error(where, "is no JSON object", hint);
-  const json::Value *degree = document.find("degree"), *rows = document.find("coefficients");
-  const std::optional<std::int64_t> n = degree ? degree->integer() : std::nullopt;
-  if (!n) throw Error(where, "has no whole number \"degree\"", hint);
-  if (!rows || !rows->is_array()) throw Error(where, "has no array \"coefficients\"", hint);
+  const json::Cursor root(document, where);
+  if (!root.is_object() || !root.has("degree") || !root.has("coefficients"))
+    root.fail("holds no coefficients",
+              "expected {\"degree\": N, \"coefficients\": [[r, g, b], …]} as `ssphh sh project` prints it");
   // Mixing conventions up is a factor of π or a sign that nobody sees.
-  const json::Value* named = document.find("convention");
-  const std::string expected_name(name_of(convention));
-  if (named && *named != json::Value(expected_name)) {
-    throw Error(where, fmt::format("is in convention {}, not \"{}\"", json::print(*named), expected_name),
+  if (const auto named = root.find("convention"); named && named->value() != json::Value(name_of(convention)))
+    named->fail(fmt::format("is {}, not \"{}\"", json::print(named->value()), name_of(convention)),
                 "`ssphh sh convert --from CONVENTION --to ssphh` brings it back");
-  }
-  const int limit = sh::convention_max_degree(convention);
-  if (*n < 0 || *n > limit) throw Error(where, fmt::format("degree {} is outside 0..{}", *n, limit));
-  const auto expected = static_cast<std::size_t>(sh::coefficient_count(static_cast<int>(*n)));
-  if (rows->size() != expected) {
-    throw Error(where,
-                fmt::format("degree {} has {} coefficients, but {} are given", *n, expected, rows->size()));
-  }
+  const std::int64_t degree = root["degree"].integer(0, sh::convention_max_degree(convention));
+  const auto count = static_cast<std::size_t>(sh::coefficient_count(static_cast<int>(degree)));
   std::vector<vec3> values;
-  for (const json::Value& row : rows->elements()) {
-    const auto place = fmt::format("coefficients[{}]", values.size());
-    if (!row.is_array() || row.size() != 3) throw Error(where, place + " is not [r, g, b]", hint);
-    vec3 value;
-    for (int c = 0; c < 3; ++c) {
-      const json::Value& channel = row[static_cast<std::size_t>(c)];
-      if (!channel.is_number()) throw Error(where, place + " holds something that is no number", hint);
-      value[c] = static_cast<float>(channel.number());
-    }
-    if (!is_finite(value)) throw Error(where, place + " does not fit a finite single-precision number");
-    values.push_back(value);
-  }
+  for (const json::Cursor& row : json::elements(root["coefficients"], count, count))
+    values.push_back(row.vector3());
   return values;
 }
 

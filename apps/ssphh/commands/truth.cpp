@@ -44,8 +44,8 @@ Halves render_path(const TruthOptions& o, const scene::Scene& scene,
     trace::RenderState state;
     if (session) {
       farm::FarmReport report;
-      state = farm::render(session->options(), scene, o.picture.scene.time, params, std::nullopt, {"color"},
-                           report, control);
+      state = farm::render(session->options(), scene, o.picture.scene.time, params, std::nullopt,
+                           {trace::RenderLayer::color}, report, control);
     } else {
       tracer->render(params, state, control);
     }

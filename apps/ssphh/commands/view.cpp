@@ -8,6 +8,7 @@
 
 #include "commands/command.h"
 #include "model/settings.h"
+#include "results/geometry_builds.h"
 
 namespace ssphh::app {
 namespace {
@@ -54,22 +55,26 @@ viewer::ViewerReport run_view(const ViewOptions& o, const Control& control) {
   parse_size(o.size, v.width, v.height);
   v.preferences = user_folder("XDG_CONFIG_HOME", ".config") / "preferences.json";
   v.autosave = user_folder("XDG_STATE_HOME", ".local/state") / "autosave";
-  v.load = [&o](const std::string& source) {
+  for (std::size_t i = 0; i < o.values.size(); ++i) {
+    if (!o.values[i].empty()) v.settings.emplace_back(viewer::setting_names()[i].name, o.values[i]);
+  }
+  const auto load = [&o](const std::string& source) {
     SceneOptions scene = o.scene;
     // The overlay was named for the first scene; one that is dropped later has its own.
     if (source != o.scene.source) scene.overlay.clear();
     scene.source = source;
     return load_lit_scene(scene);
   };
-  for (std::size_t i = 0; i < o.values.size(); ++i) {
-    if (!o.values[i].empty()) v.settings.emplace_back(viewer::setting_names()[i].name, o.values[i]);
-  }
-  return viewer::run_viewer(v, control);
+  const GeometryBuilds builds;
+  viewer::ViewerReport report = viewer::run_viewer(v, load, control);
+  report.geometry_builds = builds.count();
+  return report;
 }
 
 json::Value to_json(const viewer::ViewerReport& r, const ViewOptions&) {
   return {{"frames", r.frames},       {"renderer", r.renderer}, {"probes", r.probes},
-          {"median_ms", r.median_ms}, {"p99_ms", r.p99_ms},     {"written", r.written}};
+          {"median_ms", r.median_ms}, {"p99_ms", r.p99_ms},     {"geometry_builds", r.geometry_builds},
+          {"written", r.written}};
 }
 
 std::string to_text(const viewer::ViewerReport& r, const ViewOptions&) {

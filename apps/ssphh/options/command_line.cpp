@@ -170,6 +170,13 @@ Option Command::choice(const std::string& names, const std::vector<std::string>&
   return headed(option->check(CLI::IsMember(among))->default_str(shown));
 }
 
+Option Command::choices(const std::string& names, const std::vector<std::string>& among, char separator,
+                        const std::string& help,
+                        std::function<void(const std::vector<std::string>&)> choose) const {
+  CLI::Option* option = app_->add_option_function<std::vector<std::string>>(names, choose, help);
+  return headed(option->check(CLI::IsMember(among))).separated_by(separator);
+}
+
 Option Command::flag(const std::string& names, bool& target, const std::string& help) const {
   return headed(app_->add_flag(names, target, help));
 }

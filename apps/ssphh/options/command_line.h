@@ -79,6 +79,15 @@ class Command {
     return choice(names, among, "", help,
                   [&target](const std::string& name) { target = *parse_enum<E>(name); });
   }
+  /// Some of an enum's values, `separator` between their names.
+  template <class E>
+  Option choices(const std::string& names, std::vector<E>& targets, char separator, const std::string& help,
+                 const std::vector<std::string>& among = names_of<E>()) const {
+    return choices(names, among, separator, help, [&targets](const std::vector<std::string>& chosen) {
+      targets.clear();
+      for (const std::string& name : chosen) targets.push_back(*parse_enum<E>(name));
+    });
+  }
   /// `names` as "--resume,!--no-resume": the second sets the target to false.
   Option flag(const std::string& names, bool& target, const std::string& help) const;
   /// The option of that name; there must be one.
@@ -96,6 +105,8 @@ class Command {
  private:
   Option choice(const std::string& names, const std::vector<std::string>& among, const std::string& shown,
                 const std::string& help, std::function<void(const std::string&)> choose) const;
+  Option choices(const std::string& names, const std::vector<std::string>& among, char separator,
+                 const std::string& help, std::function<void(const std::vector<std::string>&)> choose) const;
   Option headed(CLI::Option* option) const;
 
   CLI::App* app_;

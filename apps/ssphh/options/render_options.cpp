@@ -1,6 +1,7 @@
 #include "options/render_options.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <ssphh/core/nearest_word.h>
 #include <ssphh/methods/method_list.h>
@@ -9,11 +10,6 @@
 #include "options/probe_options.h"
 
 namespace ssphh::app {
-
-const std::vector<std::string>& aov_names() {
-  static const std::vector<std::string> names = {"direct", "indirect", "albedo", "normal", "depth", "groups"};
-  return names;
-}
 
 std::vector<methods::Drawing> drawings_of(const RenderOptions& o) {
   std::vector<methods::Drawing> drawings;
@@ -81,11 +77,11 @@ void add_render_options(Command command, RenderOptions& o) {
   add_force_option(probes, o.force);
 
   const Command output = command.under("Output");
-  output
-      .option("--aov", o.aovs,
-              "Extra float images beside the output: direct indirect albedo normal depth groups")
-      .separated_by(',')
-      .one_of(aov_names());
+  std::vector<std::string> aovs = names_of<trace::RenderLayer>();
+  for (const trace::RenderLayer layer : {trace::RenderLayer::color, trace::RenderLayer::coverage})
+    std::erase(aovs, name_of(layer));
+  output.choices("--aov", o.aovs, ',',
+                 fmt::format("Extra float images beside the output: {}", fmt::join(aovs, " ")), aovs);
   output
       .option("--draw", o.draw,
               "Draw over the picture what the method holds: tetrahedra, hierarchy, links, surfels, photons, "

@@ -34,8 +34,9 @@ struct RenderOptions {
 
   std::string output;  ///< picture to write: .exr or .hdr (linear radiance), .png or .jpg (tone mapped)
   std::string png;     ///< tone-mapped PNG to write as well; empty: none
-  /// Of aov_names(): float images to write beside the output, as OUT.NAME.exr. OpenGL draws the first four.
-  std::vector<std::string> aovs;
+  /// Float images to write beside the output, as OUT.NAME.exr, and of `groups` one for each light group.
+  /// OpenGL draws direct, indirect, albedo and normal.
+  std::vector<trace::RenderLayer> aovs;
   /// Names of methods::Drawing: of the method, drawn over the finished picture.
   std::vector<std::string> draw;
   std::optional<float> exposure;  ///< of tone-mapped pictures, in stops; none: what suits the picture
@@ -59,9 +60,6 @@ struct RenderOptions {
   float occlusion = 0;     ///< OpenGL dims SPHLs' light by what stands within so many metres; 0: it does not
   int indirect_scale = 1;  ///< OpenGL looks indirect light up at every so-many-th pixel each way, 1..8
 };
-
-/// direct, indirect, albedo, normal, depth and groups, which is a file for each light group.
-const std::vector<std::string>& aov_names();
 
 /// Throws Error for a name that none has, with the nearest.
 std::vector<methods::Drawing> drawings_of(const RenderOptions& options);

@@ -33,11 +33,9 @@ std::string clock_text(double seconds) {
                    : fmt::format("{}:{:02}", s / 60, s % 60);
 }
 
-ProgressStyle progress_style(const std::string& name) {
-  if (name == "none") return ProgressStyle::none;
-  if (name == "json") return ProgressStyle::json;
-  if (name == "bar" || (name == "auto" && ::isatty(STDERR_FILENO))) return ProgressStyle::bar;
-  return ProgressStyle::plain;
+StderrProgress::StderrProgress(ProgressStyle style) : style_(style) {
+  if (style == ProgressStyle::automatic)
+    style_ = ::isatty(STDERR_FILENO) ? ProgressStyle::bar : ProgressStyle::plain;
 }
 
 void StderrProgress::begin(const std::string& stage, std::uint64_t total, const std::string& unit) {

@@ -5,13 +5,17 @@
 #include <string>
 
 #include <ssphh/core/control.h>
+#include <ssphh/core/enum_names.h>
 
 namespace ssphh::app {
 
-enum class ProgressStyle { none, bar, plain, json };
-
-/// "auto" is a bar on a terminal and plain lines otherwise.
-ProgressStyle progress_style(const std::string& name);
+/// `automatic` is a bar on a terminal and plain lines otherwise.
+enum class ProgressStyle { automatic, bar, plain, json, none };
+constexpr auto enum_table(ProgressStyle) {
+  using enum ProgressStyle;
+  return std::to_array<EnumName<ProgressStyle>>(
+      {{automatic, "auto"}, {bar, "bar"}, {plain, "plain"}, {json, "json"}, {none, "none"}});
+}
 
 /// By the second, minute or hour: the first that makes it at least one.
 std::string rate_text(double per_second, const std::string& unit);
@@ -21,7 +25,7 @@ std::string clock_text(double seconds);
 /// Progress with rate and estimated time on stderr: a redrawn bar, or a line at most every few seconds.
 class StderrProgress final : public Progress {
  public:
-  explicit StderrProgress(ProgressStyle style) : style_(style) {}
+  explicit StderrProgress(ProgressStyle style);
   void begin(const std::string& stage, std::uint64_t total, const std::string& unit) override;
   void advance(std::uint64_t count) override;
   void end() override;

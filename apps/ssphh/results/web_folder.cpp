@@ -9,7 +9,7 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/file.h>
-#include <ssphh/core/json.h>
+#include <ssphh/core/json_cursor.h>
 
 namespace ssphh::app {
 namespace {
@@ -28,11 +28,13 @@ std::vector<std::string> names_below(const fs::path& folder) {
 std::set<std::string> written_before(const fs::path& folder) {
   std::set<std::string> names;
   try {
-    const json::Value manifest = json::parse(read_text_file(folder / web_manifest), web_manifest);
-    if (manifest["format"].string() != "ssphh-web") return {};
-    for (const json::Value& file : manifest["files"].elements()) names.insert(file["name"].string());
+    const std::string where = web_manifest;
+    const json::Value manifest = json::parse(read_text_file(folder / web_manifest), where);
+    const json::Cursor in(manifest, where);
+    if (in["format"].text() != "ssphh-web") return {};
+    for (const json::Cursor& file : json::elements(in["files"])) names.insert(file["name"].text());
     names.insert(web_manifest);
-  } catch (const std::exception&) {
+  } catch (const Error&) {
     return {};
   }
   return names;

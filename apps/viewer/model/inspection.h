@@ -10,6 +10,7 @@
 #include <ssphh/scene/query.h>
 
 #include "edits.h"
+#include "view_camera.h"
 
 namespace ssphh::viewer {
 
@@ -42,5 +43,25 @@ struct InspectedLight {
 /// near, else by probes. `sees` tells whether nothing blocks the way between two points.
 InspectedLight inspect_light(const probes::ProbeSet& set, const probes::LookupParams& params,
                              const rays::SurfacePoint& at, const probes::SeesProbe& sees);
+
+/// What the pixel inspector shows.
+struct Inspection {
+  vec2 point{0};  ///< of the picture, (0, 0) its lower left and (1, 1) its upper right corner
+  std::optional<InspectedSurface> surface;
+  std::optional<vec3> radiance, truth;  ///< of the picture's pixel; none: not drawn yet, not traced
+  InspectedLight light;
+};
+
+/// When an inspection holds: for the same point, view and pose of the same scene with the same edits, as long
+/// as no other picture was drawn.
+struct InspectedAt {
+  vec2 point{0};
+  View view;
+  float time = 0;
+  std::uint64_t edits = 0;
+  int pictures = 0;
+  const void* scene = nullptr;
+  friend bool operator==(const InspectedAt&, const InspectedAt&) = default;
+};
 
 }  // namespace ssphh::viewer

@@ -93,7 +93,7 @@ class AppStage : public testing::Test {
  protected:
   AppStage() {
     std::filesystem::current_path(dir_.path());
-    options_.load = [](const std::string& source) {
+    load_ = [](const std::string& source) {
       return scene::make_builtin(source.substr(source.find(':') + 1));
     };
   }
@@ -108,7 +108,7 @@ class AppStage : public testing::Test {
     app_.reset();
     window_.reset();
     window_.emplace(width, height, scale);
-    app_.emplace(*window_, options_, Control{});
+    app_.emplace(*window_, options_, [this](const std::string& source) { return load_(source); });
     return *app_;
   }
   App& app() { return *app_; }
@@ -153,7 +153,7 @@ class AppStage : public testing::Test {
   void click(float x, float y, int button = 0) { drag(x, y, x, y, button); }
   void drag(float x, float y, float to_x, float to_y, int button = 0) {
     std::array<bool, 3> down{};
-    down[static_cast<std::size_t>(button)] = true;
+    down[button] = true;
     mouse(x, y), mouse(x, y), mouse(x, y, down), mouse(to_x, to_y, down), mouse(to_x, to_y), frame();
   }
 
@@ -173,6 +173,7 @@ class AppStage : public testing::Test {
   test::TempDir dir_;
   std::filesystem::path before_ = std::filesystem::current_path();
   ViewerOptions options_;
+  LoadScene load_;
   std::optional<StillWindow> window_;
   std::optional<App> app_;
   std::vector<unsigned char> visible_;

@@ -72,7 +72,7 @@ TEST_F(AppTest, FilesThatAreDroppedAreOpened) {
   window_->dropped = {"nothing.sphl.json"};
   turn();
   EXPECT_THAT(app().message, testing::HasSubstr("there is no scene for these probes"));
-  options_.load = [](const std::string& source) -> scene::Scene { throw Error(source, "asked for"); };
+  load_ = [](const std::string& source) -> scene::Scene { throw Error(source, "asked for"); };
   for (const char* scene : {"a.ssphh.json", "a.glb"}) {
     window_->dropped = {scene};
     turn(), finish_work();

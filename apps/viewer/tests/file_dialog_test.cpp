@@ -23,7 +23,7 @@ class Dialog : public PanelStage {
     std::ofstream("models/hut.glb") << "x";
     std::ofstream("scene-a.glb") << "x";
     std::ofstream("scene-b.glb") << "x";
-    options_.load = [this](const std::string& source) -> scene::Scene {
+    load_ = [this](const std::string& source) -> scene::Scene {
       loaded_.push_back(source);
       throw Error(source, "was asked for");
     };

@@ -24,7 +24,7 @@ class Opening : public GlStage {
   void ready() override {}
   /// A loader that takes as long as the test lets it.
   void load_slowly() {
-    options_.load = [this](const std::string& source) {
+    load_ = [this](const std::string& source) {
       ++begun_;
       while (!go_on_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
       if (source == "broken.glb") throw Error(source, "is broken");

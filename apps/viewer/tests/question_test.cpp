@@ -102,7 +102,7 @@ TEST_F(Asked, WhatCannotBeSavedKeepsTheWindow) {
 
 TEST_F(Asked, AnotherSceneWaitsForTheAnswer) {
   std::vector<std::string> loaded;
-  options_.load = [&](const std::string& source) -> scene::Scene {
+  load_ = [&](const std::string& source) -> scene::Scene {
     loaded.push_back(source);
     throw Error(source, "was asked for");
   };

@@ -50,7 +50,7 @@ TEST_F(StillPicture, ASceneGetsItsLightHoweverItIsOpened) {
   window_->dropped = {"builtin:two-rooms"};
   turn();
   EXPECT_TRUE(is_lit());
-  options_.load = [](const std::string& source) {
+  load_ = [](const std::string& source) {
     scene::Scene scene = scene::make_builtin("two-rooms");
     if (source == "bare.glb") scene.sphls.clear();
     return scene;

@@ -82,6 +82,7 @@ TEST(ViewerValues, OfASession) {
   EXPECT_EQ(report.probes, 0);
   EXPECT_EQ(report.median_ms, 0);
   EXPECT_EQ(report.p99_ms, 0);
+  EXPECT_EQ(report.geometry_builds, 0u);
 }
 
 }  // namespace

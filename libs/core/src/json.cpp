@@ -314,16 +314,6 @@ Value& Value::operator[](std::string_view name) {
   return std::get<Members>(data_).emplace_back(name, Value()).second;
 }
 
-double Value::number_or(std::string_view name, double otherwise) const {
-  const Value* member = find(name);
-  return member && member->is_number() ? member->number() : otherwise;
-}
-
-std::string Value::text_or(std::string_view name, const std::string& otherwise) const {
-  const Value* member = find(name);
-  return member && member->is_string() ? member->string() : otherwise;
-}
-
 void Value::erase(std::string_view name) {
   if (!is_object()) wrong_kind(*this, "the members");
   std::erase_if(std::get<Members>(data_), [&](const Member& member) { return member.first == name; });

@@ -6,7 +6,7 @@
 
 #include <ssphh/core/counted.h>
 #include <ssphh/core/file.h>
-#include <ssphh/core/json.h>
+#include <ssphh/core/json_cursor.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/stopwatch.h>
 #include <ssphh/farm/dispatch.h>
@@ -119,16 +119,20 @@ class Dispatcher {
 
   void take_stats(const majordomo::Frames& body) {
     if (body.size() < 2 || body[0] != "200") return;
-    const std::optional<json::Value> stats = json::try_parse(body[1]);
-    const json::Value* services = stats ? stats->find("services") : nullptr;
-    if (!services || !services->is_array()) return;
-    workers_ = 0;
-    for (const json::Value& service : services->elements()) {
-      if (service.text_or("name", "") == job_service())
-        workers_ = static_cast<int>(service.number_or("workers", 0));
+    try {
+      const std::string where = "mmi.stats";
+      const json::Value stats = json::parse(body[1], where);
+      int workers = 0;
+      for (const json::Cursor& service : json::elements(json::Cursor(stats, where)["services"])) {
+        if (service.text_or("name") == job_service())
+          workers = static_cast<int>(service["workers"].integer(0, INT32_MAX));
+      }
+      workers_ = workers;
+      known_ = true;
+      report_.workers = std::max(report_.workers, workers_);
+    } catch (const Error&) {
+      // Another broker may say nothing of workers, or say it otherwise.
     }
-    known_ = true;
-    report_.workers = std::max(report_.workers, workers_);
   }
 
   void keep(std::uint64_t job, const char* what, const std::string& body) const {

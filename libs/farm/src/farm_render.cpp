@@ -29,31 +29,25 @@ bool store(trace::RenderState& picture, const TileJob& job, const trace::Tile& t
   trace::RenderParams params = job.params;
   params.tile = tile;
   trace::RenderState part = trace::empty_state(params, groups);
-  const auto wanted = [&](const char* name) {
-    return std::ranges::find(job.layers, name) != job.layers.end();
-  };
-  bool whole = true;
-  const auto take = [&](const char* name, image::Image& to, const image::Image& from) {
-    if (from.empty() == wanted(name)) whole = false;
-    if (!from.empty()) to = from;
-  };
-  const trace::RenderState& s = result.state;
-  take("color", part.color, s.color), take("direct", part.direct, s.direct);
-  take("indirect", part.indirect, s.indirect), take("albedo", part.albedo, s.albedo);
-  take("normal", part.normal, s.normal), take("depth", part.depth, s.depth);
-  take("coverage", part.coverage, s.coverage);
-  if (s.groups.size() != part.groups.size()) return false;
-  part.groups = s.groups;
-  part.paths = s.paths, part.rays = s.rays;
-  if (whole) trace::paste(picture, part, tile);
-  return whole;
+  for (const trace::RenderLayer layer : trace::render_layers()) {
+    const std::span<const image::Image> from = trace::images_of(result.state, layer);
+    const std::span<image::Image> to = trace::images_of(part, layer);
+    const bool wanted = std::ranges::count(job.layers, layer) > 0;
+    if (from.size() != to.size() ||
+        std::ranges::any_of(from, [&](const image::Image& image) { return image.empty() == wanted; }))
+      return false;
+    if (wanted) std::ranges::copy(from, to.begin());
+  }
+  part.paths = result.state.paths, part.rays = result.state.rays;
+  trace::paste(picture, part, tile);
+  return true;
 }
 
 }  // namespace
 
 trace::RenderState render(const FarmOptions& options, const scene::Scene& scene, float time,
                           const trace::RenderParams& params, const std::optional<RenderProbes>& probes,
-                          const std::vector<std::string>& layers, FarmReport& report,
+                          const std::vector<trace::RenderLayer>& layers, FarmReport& report,
                           const Control& control) {
   // Describe the render and what goes with it.
   ScenePackage package = pack_scene(scene);

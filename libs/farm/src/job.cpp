@@ -62,26 +62,18 @@ void check(const TileJob& job) {
   require(pixels <= std::uint64_t{1} << 22, "tiles", "more than 2^22 pixels");
   require(samples_of(p.path) <= job_limits::samples / pixels, "tiles",
           "the job is too long: more than 2^40 paths");
-  std::size_t next = 0;
-  for (const std::string& layer : job.layers) {
-    while (next < layer_names().size() && layer_names()[next] != layer) ++next;
-    require(next < layer_names().size(), "layers", "unknown, doubled or out of order: " + layer);
-    ++next;
-  }
   require(!job.layers.empty(), "layers", "there are none");
-  require((job.layers.back() == "groups") == p.per_group, "layers", "groups go with per_group");
+  for (std::size_t i = 1; i < job.layers.size(); ++i)
+    require(job.layers[i - 1] < job.layers[i], "layers",
+            "doubled or out of order: " + std::string(name_of(job.layers[i])));
+  require((job.layers.back() == trace::RenderLayer::groups) == p.per_group, "layers",
+          "groups go with per_group");
   if (!job.lighting) return;
   require(job.lighting->lookup.layer != probes::ProbeLayer::neighbor, "lighting/layer",
           "must be sum or self");
 }
 
 }  // namespace
-
-const std::vector<std::string>& layer_names() {
-  static const std::vector<std::string> names = {"color",  "direct", "indirect", "albedo",
-                                                 "normal", "depth",  "coverage", "groups"};
-  return names;
-}
 
 JobKind kind_of(const Job& job) {
   const auto* probes = std::get_if<ProbeJob>(&job);

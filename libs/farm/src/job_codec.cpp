@@ -142,6 +142,8 @@ json::Value put(const TileJob& job, MessageWriter& out) {
   const scene::Camera& camera = p.camera.camera;
   json::Value tiles = json::Value::array();
   for (const trace::Tile& tile : job.tiles) tiles.push_back(put(tile));
+  json::Value layers = json::Value::array();
+  for (const trace::RenderLayer layer : job.layers) layers.push_back(name_of(layer));
   json::Value document = {{"scene", put(job.scene)},
                           {"width", p.width},
                           {"height", p.height},
@@ -152,7 +154,7 @@ json::Value put(const TileJob& job, MessageWriter& out) {
                             {"yheight", exact(camera.yheight)}}},
                           {"projection", name_of(p.projection)},
                           {"path", put(p.path)},
-                          {"layers", job.layers},
+                          {"layers", layers},
                           {"tiles", tiles}};
   if (job.lighting) {
     const ProbeLighting& l = *job.lighting;
@@ -186,9 +188,9 @@ TileJob get_tile_job(const Field& f) {
   p.camera.camera.yheight = camera["yheight"].number();
   p.projection = f["projection"].named<trace::Projection>();
   p.path = get_path(f["path"]);
-  for (const Field& layer : json::elements(f["layers"], 0, layer_names().size()))
-    job.layers.push_back(layer.text(32));
-  p.per_group = !job.layers.empty() && job.layers.back() == "groups";
+  for (const Field& layer : json::elements(f["layers"], 0, trace::render_layers().size()))
+    job.layers.push_back(layer.named<trace::RenderLayer>());
+  p.per_group = !job.layers.empty() && job.layers.back() == trace::RenderLayer::groups;
   for (const Field& tile : json::elements(f["tiles"], 0, job_limits::units))
     job.tiles.push_back(get_tile(tile));
   if (const auto l = f.find("lighting")) {
@@ -202,15 +204,14 @@ TileJob get_tile_job(const Field& f) {
 json::Value put(const TileResult& result, MessageWriter& out) {
   const trace::RenderState& state = result.state;
   json::Value layers = json::Value::object();
-  const auto add = [&](const char* name, const image::Image& image, int) {
-    if (!image.empty()) layers[name] = out.floats(image.pixels);
-  };
-  add("color", state.color, 3), add("direct", state.direct, 3), add("indirect", state.indirect, 3);
-  add("albedo", state.albedo, 3), add("normal", state.normal, 3), add("depth", state.depth, 1);
-  add("coverage", state.coverage, 1);
-  if (!state.groups.empty()) {
-    json::Value& groups = layers["groups"] = json::Value::array();
-    for (const image::Image& group : state.groups) groups.push_back(out.floats(group.pixels));
+  for (const trace::RenderLayer layer : trace::render_layers()) {
+    for (const image::Image& image : trace::images_of(state, layer)) {
+      if (layer == trace::RenderLayer::groups) {
+        layers[name_of(layer)].push_back(out.floats(image.pixels));
+      } else if (!image.empty()) {
+        layers[name_of(layer)] = out.floats(image.pixels);
+      }
+    }
   }
   return {{"tile", put(result.tile)},
           {"passes", state.passes_done},
@@ -237,14 +238,15 @@ TileResult get_tile_result(const Field& f) {
   state.paths = static_cast<std::uint64_t>(f["paths"].integer(0, INT64_MAX));
   state.rays = static_cast<std::uint64_t>(f["rays"].integer(0, INT64_MAX));
   const Field layers = f["layers"];
-  const auto take = [&](const char* name, image::Image& image, int channels) {
-    if (const auto layer = layers.find(name)) image = read(*layer, channels);
-  };
-  take("color", state.color, 3), take("direct", state.direct, 3), take("indirect", state.indirect, 3);
-  take("albedo", state.albedo, 3), take("normal", state.normal, 3), take("depth", state.depth, 1);
-  take("coverage", state.coverage, 1);
-  if (const auto groups = layers.find("groups"))
-    for (const Field& group : json::elements(*groups, 0, 256)) state.groups.push_back(read(group, 3));
+  for (const trace::RenderLayer layer : trace::render_layers()) {
+    const auto there = layers.find(name_of(layer).data());
+    if (!there) continue;
+    if (layer == trace::RenderLayer::groups) {
+      for (const Field& group : json::elements(*there, 0, 256)) state.groups.push_back(read(group, 3));
+    } else {
+      trace::images_of(state, layer)[0] = read(*there, trace::channels_of(layer));
+    }
+  }
   return result;
 }
 

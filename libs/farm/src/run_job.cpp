@@ -41,13 +41,13 @@ std::unique_ptr<rays::IndirectLight> lookup_of(const ProbeLighting& lighting, st
   return probes::make_lookup(lighting.lookup, set, *scene.tracer);
 }
 
-void keep_layers(trace::RenderState& state, const std::vector<std::string>& layers) {
-  const auto keep = [&](const char* name, auto& images) {
-    if (std::ranges::find(layers, name) == layers.end()) images = {};
-  };
-  keep("color", state.color), keep("direct", state.direct), keep("indirect", state.indirect);
-  keep("albedo", state.albedo), keep("normal", state.normal), keep("depth", state.depth);
-  keep("coverage", state.coverage), keep("groups", state.groups);
+/// The others are empty.
+void keep_layers(trace::RenderState& state, const std::vector<trace::RenderLayer>& layers) {
+  for (const trace::RenderLayer layer : trace::render_layers()) {
+    if (std::ranges::count(layers, layer) > 0) continue;
+    for (image::Image& image : trace::images_of(state, layer)) image = {};
+    if (layer == trace::RenderLayer::groups) state.groups.clear();
+  }
 }
 
 TileJobResult run(const TileJob& job, const PreparedScene& scene, const rays::IndirectLight* lookup,

@@ -54,7 +54,7 @@ Hash128 unit_key(const TileJob& job, const trace::Tile& tile) {
   Hasher h;
   h.text("tile").text(engine_id()).value(job_version).value(render.high).value(render.low);
   h.value(job.params.path.passes).value(tile.x).value(tile.y).value(tile.width).value(tile.height);
-  for (const std::string& layer : job.layers) h.text(layer);
+  for (const trace::RenderLayer layer : job.layers) h.text(name_of(layer));
   if (job.lighting) {
     const ProbeLighting& l = *job.lighting;
     h.value(l.probes.high).value(l.probes.low).text(name_of(l.lookup.method));

@@ -23,7 +23,8 @@ inline std::string name_of_this_process() {
 /// A broker on a thread; its events are not shown.
 class BrokerThread {
  public:
-  BrokerThread() : broker_(options()), thread_([this] { broker_.run(); }) {}
+  BrokerThread()
+      : broker_(options(), [](const majordomo::BrokerEvent&) {}), thread_([this] { broker_.run(); }) {}
   ~BrokerThread() {
     broker_.stop();
     broker_.stop();
@@ -35,7 +36,6 @@ class BrokerThread {
   static majordomo::BrokerOptions options() {
     majordomo::BrokerOptions options;
     options.bind = "tcp://127.0.0.1:0";
-    options.on_event = [](const majordomo::BrokerEvent&) {};
     return options;
   }
   majordomo::Broker broker_;

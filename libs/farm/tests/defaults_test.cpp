@@ -86,9 +86,6 @@ TEST(FarmDefaults, LimitsAreThoseOfTheProtocol) {
   EXPECT_EQ(job_limits::picture_size, 65536);
   EXPECT_EQ(job_limits::tile_size, 1024);
   EXPECT_EQ(job_limits::samples, std::uint64_t{1} << 40);
-  const std::vector<std::string> names = {"color",  "direct", "indirect", "albedo",
-                                          "normal", "depth",  "coverage", "groups"};
-  EXPECT_EQ(layer_names(), names);
 }
 
 TEST(FarmDefaults, AStoreKeepsTwoScenes) {

@@ -115,9 +115,10 @@ TEST(Dispatch, TilesHaveTheBitsOfALocalRenderAndAreNotRenderedAgain) {
   FarmOptions options;
   options.results = &results;
   const auto expect_wanted = [&](std::uint64_t cached) {
+    using enum trace::RenderLayer;
     FarmReport report;
     const trace::RenderState got =
-        render(options, scene, 0, params, std::nullopt, {"color", "normal", "depth"}, report);
+        render(options, scene, 0, params, std::nullopt, {color, normal, depth}, report);
     EXPECT_EQ(got.color.pixels, wanted.color.pixels);
     EXPECT_EQ(got.normal.pixels, wanted.normal.pixels);
     EXPECT_EQ(got.depth.pixels, wanted.depth.pixels);

@@ -67,7 +67,7 @@ inline TileJob tile_job(const PackedScene& packed) {
   job.params.path = {3, 2, 1, 5};
   job.params.per_group = true;
   job.tiles = {{0, 0, 16, 8}, {16, 8, 24, 16}};
-  job.layers = layer_names();
+  job.layers.assign(trace::render_layers().begin(), trace::render_layers().end());
   return job;
 }
 

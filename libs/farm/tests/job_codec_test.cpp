@@ -46,7 +46,7 @@ TEST(JobCodec, EveryFieldOfATileJobTravels) {
     job.params.projection = projection;
     expect_to_travel(job);
   }
-  job.params.per_group = false, job.layers = {"color"};
+  job.params.per_group = false, job.layers = {trace::RenderLayer::color};
   job.params.camera.camera.orthographic = false;
   expect_to_travel(job);
 }
@@ -81,6 +81,9 @@ TEST(JobCodec, WordsOfATileJobAreTheTables) {
             "job: lighting.layer: \"all\" is none of: self, neighbor, sum");
   EXPECT_EQ(problem(R"("projection":"cube_strip")", R"("projection":"cube")"),
             "job: projection: \"cube\" is none of: pinhole, orthographic, equirect, cube_strip");
+  EXPECT_EQ(problem(R"("layers":["direct")", R"("layers":["light")"),
+            "job: layers[0]: \"light\" is none of: color, direct, indirect, albedo, normal, depth, coverage, "
+            "groups");
   EXPECT_EQ(problem(R"("kind":"ref")", R"("kind":"tile")"), "job: kind: \"tile\" is none of: gen, viz, ref");
 }
 

@@ -89,7 +89,7 @@ inline TileJob some_tile_job() {
   job.params.path = {6, 3, 2, 0x89abcdef01234567};
   job.params.per_group = true;
   job.tiles = {{1, 2, 3, 4}, {32, 8, 31, 30}};
-  job.layers = {"direct", "normal", "groups"};
+  job.layers = {trace::RenderLayer::direct, trace::RenderLayer::normal, trace::RenderLayer::groups};
   job.lighting = {{0x2468ace013579bdf, 0x0f1e2d3c4b5a6978},
                   12345,
                   {probes::LookupMethod::light, probes::WeightMethod::mls, probes::ProbeLayer::self}};

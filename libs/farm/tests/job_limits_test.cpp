@@ -146,7 +146,6 @@ TEST(JobLimits, OfTileJobs) {
             {"right of it", [](auto& j) { j.tiles[1].x = j.params.width - j.tiles[1].width + 1; }},
             {"below it", [](auto& j) { j.tiles[1].y = j.params.height - j.tiles[1].height + 1; }},
             {"no layers", [](auto& j) { j.layers.clear(), j.params.per_group = false; }},
-            {"unknown layer", [](auto& j) { j.layers[0] = "light"; }},
             {"layers out of order", [](auto& j) { std::swap(j.layers[0], j.layers[1]); }},
             {"doubled layer", [](auto& j) { j.layers[1] = j.layers[0]; }},
             {"groups without per_group", [](auto& j) { j.params.per_group = false; }},

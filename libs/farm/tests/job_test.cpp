@@ -80,7 +80,8 @@ TEST(Job, GBufferTilesHoldWhatIsSeenAndNothingElse) {
   TileJob job = test::tile_job(packed);
   job.params.path.max_depth = 0;
   job.params.per_group = false;
-  job.layers = {"albedo", "normal", "depth", "coverage"};
+  job.layers = {trace::RenderLayer::albedo, trace::RenderLayer::normal, trace::RenderLayer::depth,
+                trace::RenderLayer::coverage};
   const auto got = std::get<TileJobResult>(far_away(packed, job, ContentType::binary).data);
   trace::RenderParams params = job.params;
   params.path.max_depth = 3;

@@ -170,7 +170,9 @@ class KeptTiles : public KeptAnswers {
 
   trace::RenderParams params_;
   trace::Tile tile_{0, 0, 7, 5};
-  std::vector<std::string> layers_ = {"color", "direct", "normal", "depth", "groups"};
+  std::vector<trace::RenderLayer> layers_ = {trace::RenderLayer::color, trace::RenderLayer::direct,
+                                             trace::RenderLayer::normal, trace::RenderLayer::depth,
+                                             trace::RenderLayer::groups};
 };
 
 TEST_F(KeptTiles, AreOfTheTileThePassesAndTheLayersThatWereAskedFor) {

@@ -4,6 +4,8 @@
 #include <ssphh/core/require.h>
 #include <ssphh/geometry/balls.h>
 
+#include "median_split.h"
+
 namespace ssphh::geometry {
 
 Balls::Balls(std::span<const vec3> centres, std::span<const float> radii)
@@ -27,18 +29,10 @@ Balls::Box Balls::sort(std::size_t begin, std::size_t end, std::span<const float
     }
     return box;
   }
-  vec3 low = items_[begin].centre, high = low;
-  for (std::size_t i = begin; i < end; ++i) {
-    low = glm::min(low, items_[i].centre);
-    high = glm::max(high, items_[i].centre);
-  }
-  const vec3 extent = high - low;
-  const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : (extent.y >= extent.z ? 1 : 2);
   const std::size_t middle = begin + (end - begin) / 2;
-  const auto at = [&](std::size_t i) { return items_.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::nth_element(at(begin), at(middle), at(end), [axis](const Item& a, const Item& b) {
-    return a.centre[axis] < b.centre[axis] || (a.centre[axis] == b.centre[axis] && a.ball < b.ball);
-  });
+  split_at_median(
+      std::span(items_).subspan(begin, end - begin), [](const Item& item) { return item.centre; },
+      [](const Item& item) { return item.ball; });
   for (const Box& half : {sort(begin, middle, radii), sort(middle, end, radii)}) {
     box.low = glm::min(box.low, half.low);
     box.high = glm::max(box.high, half.high);

@@ -3,6 +3,8 @@
 #include <ssphh/core/require.h>
 #include <ssphh/geometry/nearest.h>
 
+#include "median_split.h"
+
 namespace ssphh::geometry {
 namespace {
 constexpr std::size_t leaf = 8;  // points that are not split any further
@@ -17,12 +19,11 @@ struct NearestPoints::Search {
 
   void offer(const Near& candidate) {
     const auto wanted = static_cast<int>(out.size());
-    if (count == wanted && !(candidate < out[static_cast<std::size_t>(count - 1)])) return;
+    if (count == wanted && !(candidate < out[count - 1])) return;
     int at = count < wanted ? count++ : wanted - 1;
-    for (; at > 0 && candidate < out[static_cast<std::size_t>(at - 1)]; --at)
-      out[static_cast<std::size_t>(at)] = out[static_cast<std::size_t>(at - 1)];
-    out[static_cast<std::size_t>(at)] = candidate;
-    if (count == wanted) limit2 = std::min(limit2, out[static_cast<std::size_t>(count - 1)].distance2);
+    for (; at > 0 && candidate < out[at - 1]; --at) out[at] = out[at - 1];
+    out[at] = candidate;
+    if (count == wanted) limit2 = std::min(limit2, out[count - 1].distance2);
   }
   void look_at(const Item& item) {
     const vec3 d = item.position - x;
@@ -39,19 +40,10 @@ NearestPoints::NearestPoints(std::span<const vec3> points) : axis_(points.size()
 
 void NearestPoints::sort(std::size_t begin, std::size_t end) {
   if (end - begin <= leaf) return;
-  vec3 low = items_[begin].position, high = low;
-  for (std::size_t i = begin; i < end; ++i) {
-    low = glm::min(low, items_[i].position);
-    high = glm::max(high, items_[i].position);
-  }
-  const vec3 extent = high - low;
-  const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : (extent.y >= extent.z ? 1 : 2);
   const std::size_t middle = begin + (end - begin) / 2;
-  const auto at = [&](std::size_t i) { return items_.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::nth_element(at(begin), at(middle), at(end), [axis](const Item& a, const Item& b) {
-    return a.position[axis] < b.position[axis] || (a.position[axis] == b.position[axis] && a.index < b.index);
-  });
-  axis_[middle] = static_cast<std::uint8_t>(axis);
+  axis_[middle] = static_cast<std::uint8_t>(split_at_median(
+      std::span(items_).subspan(begin, end - begin), [](const Item& item) { return item.position; },
+      [](const Item& item) { return item.index; }));
   sort(begin, middle);
   sort(middle + 1, end);
 }

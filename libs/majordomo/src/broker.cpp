@@ -32,8 +32,9 @@ std::array<std::uint64_t, 2> system_random() {
 }  // namespace
 
 struct Broker::Impl {
-  explicit Impl(BrokerOptions&& o)
+  Impl(BrokerOptions&& o, BrokerEventSink&& sink)
       : options(std::move(o)),
+        on_event(std::move(sink)),
         store(options.store.empty() ? nullptr : std::make_unique<Store>(options.store)),
         core(options.limits, options.timers, system_random, store != nullptr),
         outbox(options.limits.outbox_bytes) {
@@ -149,8 +150,8 @@ struct Broker::Impl {
   }
 
   void tell(const BrokerEvent& event) const {
-    if (options.on_event) {
-      options.on_event(event);
+    if (on_event) {
+      on_event(event);
     } else {
       log(event.level, event.text());
     }
@@ -203,6 +204,7 @@ struct Broker::Impl {
   }
 
   BrokerOptions options;
+  const BrokerEventSink on_event;
   std::unique_ptr<Store> store;
   BrokerCore core;
   Outbox outbox;
@@ -224,7 +226,8 @@ struct Broker::Impl {
   std::atomic<bool> reloads{false};
 };
 
-Broker::Broker(BrokerOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
+Broker::Broker(BrokerOptions options, BrokerEventSink on_event)
+    : impl_(std::make_unique<Impl>(std::move(options), std::move(on_event))) {}
 Broker::~Broker() = default;
 
 std::string Broker::endpoint() const {

@@ -12,19 +12,18 @@ namespace ssphh::majordomo::test {
 namespace {
 
 /// Silent peers are left alone for ten minutes, and what ends does so within a minute of being asked.
-BrokerOptions patient(Told& told) {
+BrokerOptions patient() {
   BrokerOptions options;
   options.timers.heartbeat = 150'000, options.timers.worker_expiry = 600'000;
   options.timers.client_grace = 600'000;
   options.drain = 60'000;
-  options.on_event = [&told](const BrokerEvent& event) { told(event); };
   return options;
 }
 
 // No message, no heartbeat and no timer comes meanwhile: only its monitor tells the broker.
 TEST(BrokerLife, HearsOfAConnectionsEndThoughNobodySpeaks) {
   Told told;
-  RunningBroker broker(patient(told));
+  RunningBroker broker(patient(), std::ref(told));
   {
     RawPeer worker(zmq::socket_type::dealer, broker.endpoint());
     worker.send({"MDPW02", "\x01", "echo"});
@@ -49,7 +48,7 @@ TEST(BrokerLife, TimeBeginsWhenItIsMade) {
 
 TEST(BrokerLife, StoppedItLetsJobsFinishAndTakesNoMore) {
   Told told;
-  RunningBroker broker(patient(told));
+  RunningBroker broker(patient(), std::ref(told));
   std::atomic<bool> started = false, released = false;
   RunningWorker worker({.endpoint = broker.endpoint(), .service = "job", .name = "w"}, [&](const Job& job) {
     started = true;
@@ -75,7 +74,7 @@ TEST(BrokerLife, StoppedItLetsJobsFinishAndTakesNoMore) {
 /// A worker that takes the one job and never answers it.
 struct Hanging : testing::Test {
   void begin(BrokerOptions options) {
-    broker = std::make_unique<RunningBroker>(std::move(options));
+    broker = std::make_unique<RunningBroker>(std::move(options), std::ref(told));
     worker = std::make_unique<RawPeer>(zmq::socket_type::dealer, broker->endpoint());
     worker->send({"MDPW02", "\x01", "job"});
     client = std::make_unique<RawPeer>(zmq::socket_type::dealer, broker->endpoint());
@@ -88,7 +87,7 @@ struct Hanging : testing::Test {
 };
 
 TEST_F(Hanging, JobIsWaitedForAsLongAsTheDrainLasts) {
-  BrokerOptions options = patient(told);
+  BrokerOptions options = patient();
   options.drain = 60;
   begin(options);
   const Millis asked = steady_now();
@@ -99,7 +98,7 @@ TEST_F(Hanging, JobIsWaitedForAsLongAsTheDrainLasts) {
 }
 
 TEST_F(Hanging, JobIsNotWaitedForOnceTheBrokerIsStoppedAgain) {
-  begin(patient(told));
+  begin(patient());
   (**broker).stop();
   ASSERT_TRUE(told.wait_for("broker-draining"));
   (**broker).stop();

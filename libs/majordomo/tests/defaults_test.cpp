@@ -68,7 +68,6 @@ TEST(MajordomoDefaults, OfPeersAndBrokers) {
   EXPECT_EQ(broker.metrics_bind, "");
   EXPECT_FALSE(broker.security);
   EXPECT_TRUE(broker.store.empty());
-  EXPECT_FALSE(broker.on_event);
   EXPECT_EQ(broker.connection_timeout, 6000);
   EXPECT_EQ(broker.drain, 10'000);
   EXPECT_EQ(broker.least_event, LogLevel::info);

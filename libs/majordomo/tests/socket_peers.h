@@ -19,11 +19,11 @@ namespace ssphh::majordomo::test {
 
 class RunningBroker {
  public:
-  explicit RunningBroker(BrokerOptions options = {}) {
+  explicit RunningBroker(
+      BrokerOptions options = {}, BrokerEventSink on_event = [](const BrokerEvent&) {}) {
     if (options.bind == BrokerOptions{}.bind) options.bind = "tcp://127.0.0.1:0";
-    if (!options.on_event) options.on_event = [](const BrokerEvent&) {};
     if (options.drain == BrokerOptions{}.drain) options.drain = 2000;
-    broker_ = std::make_unique<Broker>(std::move(options));
+    broker_ = std::make_unique<Broker>(std::move(options), std::move(on_event));
     thread_ = std::thread([this] { broker_->run(); });
   }
   ~RunningBroker() { end(); }

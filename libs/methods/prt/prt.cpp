@@ -18,6 +18,13 @@
 namespace ssphh::methods::prt {
 namespace {
 
+/// How light of the environment reaches surfaces.
+enum class EnvironmentLight { transfer, probes };
+constexpr auto enum_table(EnvironmentLight) {
+  using enum EnvironmentLight;
+  return std::to_array<EnumName<EnvironmentLight>>({{transfer, "transfer"}, {probes, "probes"}});
+}
+
 constexpr int moving_degree = 2;  ///< of irradiance where there are no transfer vectors
 /// Of the scene's radius: how far surface points may lie off the mesh, and the longest edge.
 constexpr float mesh_reach = 2e-3f, usual_edge = 1.0f / 14;
@@ -35,7 +42,7 @@ class VertexLight final : public rays::IndirectLight {
   vec3 irradiance(const rays::SurfacePoint& at) const override {
     const MeshPlace place = index.find(at);
     if (place.triangle < 0) return between_probes->irradiance(at);
-    const uvec3& t = triangles[static_cast<std::size_t>(place.triangle)];
+    const uvec3& t = triangles[place.triangle];
     return place.weight.x * irradiance_of[t.x] + place.weight.y * irradiance_of[t.y] +
            place.weight.z * irradiance_of[t.z];
   }
@@ -67,7 +74,8 @@ class Prt final : public Method {
  public:
   Prt(const MethodScene& scene, const MethodParameters& p, const Control& control)
       : source_(scene.source), volume_(scene, p, p.integer("degree"), control) {
-    const bool by_transfer = scene.scene.environment && p.choice("environment") == "transfer";
+    const bool by_transfer =
+        scene.scene.environment && p.choice<EnvironmentLight>("environment") == EnvironmentLight::transfer;
     if (by_transfer) require_own_group(scene);
     const float radius = scene.source.part_bounds(0).radius();
     TransferMeshParams mesh_params;
@@ -110,7 +118,7 @@ class Prt final : public Method {
       sky = sh::Rotation::about_axis(sky_.degree(), vec3(0, 1, 0),
                                      static_cast<double>(sky_rotation_ + state.environment_rotation))
                 .apply(sky_);
-      sky *= state.group_scales[static_cast<std::size_t>(group)];
+      sky *= state.group_scales[group];
     }
     light_.irradiance_of.resize(probes_->begin.size() - 1);
     parallel_for(light_.irradiance_of.size(), 256,
@@ -157,14 +165,14 @@ class Prt final : public Method {
       shared |= source_.light_group_of(static_cast<int>(i)) == group;
     for (const scene::Instance& instance : scene.scene.instances) {
       const int material = scene::instance_material(scene.scene, instance);
-      if (material < 0 || !scene.scene.materials[static_cast<std::size_t>(material)].emissive()) continue;
+      if (material < 0 || !scene.scene.materials[material].emissive()) continue;
       shared |= scene::light_group_index(source_.light_groups(), scene::light_group(scene.scene, instance)) ==
                 group;
     }
     if (shared) {
       throw Error("method prt",
                   fmt::format("the environment shares its light group \"{}\" with other lights",
-                              source_.light_groups()[static_cast<std::size_t>(group)]),
+                              source_.light_groups()[group]),
                   "give it a group of its own, or use environment=probes");
     }
   }
@@ -180,7 +188,7 @@ class Prt final : public Method {
   vec3 at_vertex(std::size_t v, const sh::RadianceSh& sky) const {
     vec3 sum(0);
     for (const probes::ProbeWeight& probe : probes_->of(v)) {
-      const sh::RadianceSh& radiance = volume_.radiance()[static_cast<std::size_t>(probe.probe)];
+      const sh::RadianceSh& radiance = volume_.radiance()[probe.probe];
       sum += probe.weight * (near_.direct_irradiance(v, radiance) + near_.reflected_irradiance(v, radiance));
     }
     if (!sky.empty()) sum += from_sky_.reflected_irradiance(v, sky);
@@ -210,8 +218,8 @@ MethodEntry entry() {
       {"interreflect", 3, 0, 64, "bounces within the transfer vectors; 0: shadowed only", true},
       {"self_shadow", 0.25, 0, 1e6,
        "nearer than this share of the probes' spacing, surfaces hide and reflect their light; 0: none do"},
-      word_parameter("environment", {"transfer", "probes"},
-                     "by transfer vectors from infinity, or in the probes as all other light"),
+      choice_parameter("environment", EnvironmentLight::transfer,
+                       "by transfer vectors from infinity, or in the probes as all other light"),
       {"rays", 256, 16, 65536, "per vertex", true},
       {"edge", 0, 0, 1e4, "longest of the mesh [m]; 0: a 14th of the scene's radius"},
       {"vertices", 1 << 18, 3, 1 << 26, "more are refused", true}};

@@ -13,6 +13,7 @@
 #include <ssphh/transport/surface_gather.h>
 
 #include "network_memory.h"
+#include "probe_places.h"
 
 namespace ssphh::methods::ssphh {
 namespace {
@@ -20,7 +21,7 @@ namespace {
 std::vector<scene::ProbePlace> find_places(const MethodScene& scene, const MethodParameters& p,
                                            const Control& control) {
   place::PlaceParams params = place::place_params(scene.scene);
-  if (p.choice("places") == "scene") {
+  if (probe_places(p) == ProbePlaces::scene) {
     if (params.manual.empty())
       throw Error("method ssphh", "the scene has no SPHLs of its own", "let places=auto find some");
     return params.manual;
@@ -164,7 +165,8 @@ MethodEntry entry() {
   return {
       "ssphh",
       "SPHLs lit by transport between surfels",
-      {word_parameter("places", {"auto", "scene"}, "of the probes: found, or the scene's own SPHLs"),
+      {places_parameter({ProbePlaces::found, ProbePlaces::scene},
+                        "of the probes: found, or the scene's own SPHLs"),
        {"spacing", 0, 0, 1e4, "between probes that are placed [m]; 0: some 100 to 200 probes"},
        {"probes", 0, 0, 4096, "so many are placed; 0: as the spacing gives", true},
        {"degree", 4, 0, 10, "highest band kept of a probe's light", true},

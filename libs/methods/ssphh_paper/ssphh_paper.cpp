@@ -7,6 +7,8 @@
 #include <ssphh/probes/hier.h>
 #include <ssphh/probes/lookup.h>
 
+#include "probe_places.h"
+
 namespace ssphh::methods::ssphh_paper {
 namespace {
 
@@ -14,7 +16,7 @@ namespace {
 probes::ProbeSet dark_set(const MethodScene& scene, const MethodParameters& p, const Control& control) {
   const int degree = p.integer("degree");
   place::PlaceParams params = place::place_params(scene.scene);
-  if (p.choice("places") == "scene" && !params.manual.empty())
+  if (probe_places(p) == ProbePlaces::scene && !params.manual.empty())
     return place::init_from_scene(scene.scene, degree);
   params.manual.clear();
   params.count = p.integer("probes");
@@ -114,8 +116,8 @@ MethodEntry entry() {
   return {
       "ssphh-paper",
       "the paper's SSPHH: path-traced SPHLs as lights, and what their neighbours add",
-      {word_parameter("places", {"scene", "auto"},
-                      "of the SPHLs: the scene's, found where it has none; or found"),
+      {places_parameter({ProbePlaces::scene, ProbePlaces::found},
+                        "of the SPHLs: the scene's, found where it has none; or found"),
        {"probes", 6, 1, 4096, "so many are found", true},
        {"degree", 10, 0, 10, "highest band of an SPHL", true},
        {"face", 64, 1, 4096, "texels along a face of a cube map", true},

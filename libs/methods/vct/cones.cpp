@@ -62,10 +62,8 @@ std::vector<Cone> hemisphere_cones(int count) {
 
 std::vector<Cone> cap_cones(float cosine) {
   const double whole = 2 * pi_d * (1 - static_cast<double>(cosine));
-  constexpr double widest = 0.8660254037844386;  // cos 30°
-  if (static_cast<double>(cosine) >= widest) return {{{0, 0, 1}, 1, tangent_of(whole)}};
-  // One in the middle and a ring of six, all of the same solid angle.
-  constexpr int ring = 6, count = ring + 1;
+  if (static_cast<double>(cosine) >= one_cone_cosine) return {{{0, 0, 1}, 1, tangent_of(whole)}};
+  constexpr int count = cap_cone_count, ring = count - 1;
   const float tangent = tangent_of(whole / count);
   std::vector<Cone> cones{{{0, 0, 1}, 1.0f / count, tangent}};
   const double c0 = 1 - (1 - static_cast<double>(cosine)) / count, c1 = static_cast<double>(cosine);

@@ -1,7 +1,6 @@
 // Cones through voxels, step by step as methods::vct::ConeLight traces them (libs/methods/vct/README.md). Places are in voxels
 // of level 0, 0 at the grid's corner.
 
-const int MAX_LEVELS = 9, LOBE_STEPS = 128;
 // Mirrors GpuConeBlock in method_types.h.
 layout(std140, binding = 5) uniform ConeBlock {
   vec4 grid;    // corner of the grid; w: edge of a voxel
@@ -9,8 +8,8 @@ layout(std140, binding = 5) uniform ConeBlock {
   ivec4 counts; // cones, coarsest level
   vec4 part;    // texels of a side's part in the volume
   vec4 texel;   // 1 / texels of the volume
-  vec4 cells[MAX_LEVELS];
-  vec4 first[MAX_LEVELS];
+  vec4 cells[VOXEL_LEVELS];
+  vec4 first[VOXEL_LEVELS];
   vec4 lobe_cosines[LOBE_STEPS / 4 + 1];
 } cones;
 layout(std430, binding = 0) readonly buffer Cones { vec4 hemisphere[]; };
@@ -86,7 +85,7 @@ float lobe_cosine(float roughness) {
 // Mean over the part of the lobe that is above the surface: methods::vct::cap_cones.
 vec3 gather_lobe(vec3 origin, vec3 n, vec3 mirror, float roughness) {
   float cosine = lobe_cosine(roughness);
-  int count = cosine >= 0.8660254 ? 1 : 7;
+  int count = cosine >= ONE_CONE_COSINE ? 1 : CAP_CONES;
   float inner = 1 - (1 - cosine) / float(count);  // cosine of a cone
   float tangent = sqrt(1 - inner * inner) / inner;
   float z = 0.5 * (inner + cosine), r = sqrt(1 - z * z);
@@ -94,7 +93,7 @@ vec3 gather_lobe(vec3 origin, vec3 n, vec3 mirror, float roughness) {
   vec3 sum = vec3(0);
   float weight = 0;
   for (int i = 0; i < count; ++i) {
-    float angle = 2 * PI * float(i - 1) / 6;
+    float angle = 2 * PI * float(i - 1) / float(CAP_CONES - 1);
     vec3 direction = basis * (i == 0 ? vec3(0, 0, 1) : vec3(r * cos(angle), r * sin(angle), z));
     if (dot(direction, n) <= 0) continue;
     sum += trace_cone(origin, direction, tangent).rgb;

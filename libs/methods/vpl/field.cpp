@@ -62,8 +62,7 @@ vec3 VplField::glossy(const rays::SurfacePoint& at, const vec3& r, float roughne
   const float a = std::max(roughness * roughness, 1e-3f);
   Receiver receiver{at.position, at.normal, std::min(2 / (a * a) - 2, sharpest_lobe), r};
   receiver.exponent = std::max(receiver.exponent, 1.0f);
-  // What the lobe leaves less than a thousandth of is not worth a ray.
-  const float least = std::pow(1e-3f, 1 / receiver.exponent);
+  const float least = std::pow(least_of_lobe, 1 / receiver.exponent);
   return gather(at, [&](const Vpl& light) {
     const vec3 way = light.position - at.position;
     // Of a spherical light the edge may lie in the lobe though its middle does not.

@@ -22,7 +22,7 @@ float sphere_transfer(const Receiver& at, const Vpl& light, const vec3& way, flo
   if (glm::dot(at.normal, way) < -light.radius || glm::dot(light.normal, way) > light.radius) return 0;
   const vec3 toward = distance2 > 0 ? way / std::sqrt(distance2) : at.normal;
   // Uniform directions in the cone that the sphere fills; from inside, in a hemisphere.
-  constexpr int rings = 4, spokes = 8;
+  constexpr int rings = sphere_rings, spokes = sphere_spokes;
   const float sine2 = std::min(light.radius * light.radius / std::max(distance2, 1e-20f), 1.0f);
   const float one_minus = sine2 / (1 + std::sqrt(1 - sine2));
   const Frame frame = Frame::around(toward);
@@ -65,9 +65,8 @@ float transfer(const Receiver& at, const Vpl& light, const VplParams& params) {
   if (params.kind == VplKind::sphere) {
     const vec3 way = light.position - at.position;
     const float distance2 = glm::dot(way, way);
-    // From afar the cosines are the same all over the disc.
-    constexpr float far2 = 64;
-    if (distance2 < far2 * light.radius * light.radius) return sphere_transfer(at, light, way, distance2);
+    if (distance2 < sphere_far2 * light.radius * light.radius)
+      return sphere_transfer(at, light, way, distance2);
     return unbounded_transfer(at, light);
   }
   const float open = unbounded_transfer(at, light);

@@ -13,7 +13,6 @@ uniform ivec4 map_layout;     // texels of a face, log2 of tiles in a row
 uniform float map_near;
 uniform int spheres;
 uniform float most_transfer;  // of points
-uniform float sharpest_lobe;
 
 // What light from a direction counts for: its cosine, or a lobe (n + 1)/2pi cos^n around an axis.
 struct Receiver {
@@ -29,7 +28,6 @@ float response(Receiver at, vec3 wi) {
 
 // Mean over directions to the sphere of `light`; no rings: none.
 float sphere_transfer(Receiver at, VirtualLight light, vec3 way, float distance2, int rings) {
-  const int spokes = 8;
   float radius = light.place.w;
   bool hidden = dot(at.normal, way) < -radius || dot(light.normal.xyz, way) > radius;
   float sine2 = min(radius * radius / max(distance2, 1e-20), 1.0);
@@ -38,13 +36,13 @@ float sphere_transfer(Receiver at, VirtualLight light, vec3 way, float distance2
   float sum = 0;
   for (int i = 0; i < rings; ++i) {
     float x = (float(i) + 0.5) / float(rings) * one_minus, r = sqrt(x * (2 - x));
-    for (int k = 0; k < spokes; ++k) {
-      float turn = 2 * PI * (float(k) + 0.5 * float(i & 1)) / float(spokes);
+    for (int k = 0; k < SPHERE_SPOKES; ++k) {
+      float turn = 2 * PI * (float(k) + 0.5 * float(i & 1)) / float(SPHERE_SPOKES);
       vec3 wi = basis * vec3(r * cos(turn), r * sin(turn), 1 - x);
       sum += response(at, wi) * max(-dot(light.normal.xyz, wi), 0.0);
     }
   }
-  return hidden ? 0 : sum / float(rings * spokes) * 2 * one_minus / (radius * radius);
+  return hidden ? 0 : sum / float(rings * SPHERE_SPOKES) * 2 * one_minus / (radius * radius);
 }
 
 // Irradiance per unit of power over pi; of a lobe, the radiance that it reflects.
@@ -54,9 +52,9 @@ float transfer(Receiver at, VirtualLight light) {
   vec3 wi = way * inversesqrt(max(distance2, 1e-30));
   float open = response(at, wi) * max(-dot(light.normal.xyz, wi), 0.0) / max(distance2, 1e-30);
   if (spheres == 0) return min(open, most_transfer);
-  bool near = distance2 < 64 * light.place.w * light.place.w;
+  bool near = distance2 < SPHERE_FAR2 * light.place.w * light.place.w;
   // Software renderers run both sides of every branch but leave loops early
-  float spread = sphere_transfer(at, light, way, distance2, near ? 4 : 0);
+  float spread = sphere_transfer(at, light, way, distance2, near ? SPHERE_RINGS : 0);
   return near ? spread : open;
 }
 
@@ -65,9 +63,8 @@ void look_up(Surface s, vec3 mirror, float roughness, out vec3 irradiance, out v
   Receiver diffuse = Receiver(s.position, s.normal, vec3(0), -1);
 #ifdef FULL_BSDF
   float alpha = max(roughness * roughness, 1e-3);
-  Receiver lobe = Receiver(s.position, s.normal, mirror, clamp(2 / (alpha * alpha) - 2, 1.0, sharpest_lobe));
-  // What the lobe leaves less than a thousandth of does not count
-  float least = spheres != 0 ? -1 : pow(1e-3, 1 / lobe.exponent);
+  Receiver lobe = Receiver(s.position, s.normal, mirror, clamp(2 / (alpha * alpha) - 2, 1.0, SHARPEST_LOBE));
+  float least = spheres != 0 ? -1 : pow(LEAST_OF_LOBE, 1 / lobe.exponent);
 #endif
   for (int i = lights_drawn.x; i < lights_drawn.y; ++i) {
     VirtualLight light = virtual_lights[i];

@@ -14,7 +14,7 @@ struct Bsdf {
 };
 
 vec4 albedo_entry(bool phong, float mu, float roughness) {
-  vec2 place = (vec2(mu, roughness) * 31 + 0.5) / 32;
+  vec2 place = (vec2(mu, roughness) * float(ALBEDO_TABLE_SIZE - 1) + 0.5) / float(ALBEDO_TABLE_SIZE);
   return texture(albedo_table, vec3(place, phong ? 1 : 0));
 }
 
@@ -67,8 +67,8 @@ Bsdf bsdf_from(vec3 diffuse, vec3 f0, float diffuse_roughness, float specular_ro
   b.diffuse_roughness = diffuse_roughness;
   b.phong = specular_roughness < 0;
   b.roughness = abs(specular_roughness);
-  b.alpha = max(b.roughness * b.roughness, 1e-3);
-  b.f90 = min(1.0, 50 * max_component(f0));
+  b.alpha = max(b.roughness * b.roughness, MIN_ALPHA);
+  b.f90 = min(1.0, F90_PER_F0 * max_component(f0));
   b.specular = max_component(f0) > 0;
   b.albedo = vec3(0);
   b.left = vec3(1);

@@ -179,7 +179,6 @@ void main() {
 // Octahedral tiles of what lobes of some roughnesses see (environment_tiles.h).
 layout(binding = 12) uniform sampler2DArray environment_tiles;
 uniform ivec4 environment_layout;  // texels of a tile without its border, log2 of tiles in a row
-const int ENVIRONMENT_LEVELS = 8;
 uniform float environment_roughness[ENVIRONMENT_LEVELS];
 
 vec3 environment_tile(int level, vec2 texel) {

@@ -7,9 +7,8 @@ layout(binding = 11) uniform usampler2D fitted_points;  // of each, its place an
 // Of the grid where points are dense and of that of all the rest: origin, w: side of a cell; cells, w: first range
 uniform vec4 fitted_origin, fitted_far_origin;
 uniform ivec4 fitted_cells, fitted_far_cells;
-const int FITTED_WIDTH_LOG2 = 11;
 
-ivec2 fitted_place(int i) { return ivec2(i & (1 << FITTED_WIDTH_LOG2) - 1, i >> FITTED_WIDTH_LOG2); }
+ivec2 fitted_place(int i) { return ivec2(i & (1 << LIST_WIDTH_LOG2) - 1, i >> LIST_WIDTH_LOG2); }
 
 uvec4 fitted_entry(int i) { return texelFetch(fitted_lists, fitted_place(i), 0); }
 int fitted_index(uvec4 entry) { return int(entry.x & 0x7ffffu); }

@@ -18,9 +18,7 @@ layout(location = 2) out vec4 color_out;
 
 uniform int emission_shown;  // 1: all; 2: of unlit surfaces, whose colour it is
 #ifdef GLASS
-// What is mostly no glass; what glass leaves of the light behind it; glass as a surface that reflects.
 uniform int glass_layer;
-const int OPAQUE = 0, THROUGH = 1, REFLECTING = 2;
 #endif
 
 vec3 normalize_or(vec3 v, vec3 fallback) {
@@ -103,16 +101,16 @@ void main() {
 #ifdef GLASS
   {
     float share = glass_share(uv.xy, uv.zw);
-    if ((share < 0.5) != (glass_layer == OPAQUE)) discard;
+    if ((share < 0.5) != (glass_layer == GLASS_OPAQUE)) discard;
     float cosine = clamp(dot(n, wo), 0.0, 1.0);
     GlassShares shares = glass_shares(cosine, base.rgb);
-    if (glass_layer == THROUGH) {
+    if (glass_layer == GLASS_THROUGH) {
       gbuffer0 = uvec4(0), gbuffer1 = uvec2(0);
       color_out = vec4(share * kept_by_lobe(cosine, abs(roughness.y)) * shares.transmitted, 1);
       return;
     }
     diffuse *= 1 - share;
-    if (glass_layer == REFLECTING) {
+    if (glass_layer == GLASS_REFLECTING) {
       // The F0 with which Schlick's term is that of the glass at this angle.
       float m = 1 - cosine, s = m * m * m * m * m;
       vec3 seen = mix(f0 * (1 - s) + s, shares.reflected, share);

@@ -14,7 +14,7 @@ struct GlassShares {
 
 // What a rough lobe keeps of light, going on straight in place of it.
 float kept_by_lobe(float cosine, float roughness) {
-  if (roughness * roughness <= 1e-3) return 1;
+  if (roughness * roughness <= MIN_ALPHA) return 1;
   vec4 table = albedo_entry(false, cosine, min(roughness, 1.0));
   return table.x + table.y;
 }

@@ -1,4 +1,3 @@
-const int MAX_DEGREE = 10;
 
 // Visits Y_lm(d) for l <= degree in the order m = 0, 1, ...; BODY uses k and y.
 #define FOR_EACH_HARMONIC(degree, d, BODY)                                        \

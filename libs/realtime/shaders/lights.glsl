@@ -2,7 +2,6 @@
 
 // One emitter of the scene; mirrors GpuEmitter, GpuAreaSample in gpu_types.h. Passes light the scene by one
 // emitter each.
-const int MAX_SAMPLES = 64, MAX_CORNERS = 121, SUN_CASCADES = 6;
 
 struct AreaSample {
   vec4 place;   // position, or direction toward it (environment, disc); w: share of the area or light
@@ -28,7 +27,6 @@ struct SunMap {
   vec4 up;       // w: 1 / half height
   vec4 forward;  // away from the light; w: tile
 };
-const int MAX_PARALLEL_MAPS = 192;
 layout(std140, binding = 1) uniform DistantBlock {
   SunMap sun_maps[MAX_PARALLEL_MAPS];
   vec4 environment_sh[25];

@@ -4,7 +4,6 @@
 
 // CandidateGrid's lists, CELLS_WIDTH entries in a row: position; w: probe, -1 where a list ends.
 layout(binding = 14) uniform sampler2D probe_cells;
-const int CELLS_WIDTH_LOG2 = 11;
 
 // Octahedral tiles: irradiance of a probe by normal; radiance by mirror direction, one tile per roughness.
 layout(binding = 12) uniform sampler2DArray irradiance_tiles;
@@ -13,7 +12,6 @@ layout(binding = 13) uniform sampler2DArray radiance_tiles;
 uniform ivec4 irradiance_layout;  // texels of a tile without its border, log2 of tiles in a row; z: from a probe's tile to
                                   // that of what more lights things that move, 0: nothing
 uniform ivec4 radiance_layout;    // likewise; z: tiles of a probe
-const int RADIANCE_LEVELS = 6;
 uniform float level_roughness[RADIANCE_LEVELS];
 
 // First entry of the list of candidates around x, nearest to the cell's middle first; frame.grid_size.w entries.
@@ -23,7 +21,7 @@ int candidates_at(vec3 x) {
   return ((cell.z * frame.grid_size.y + cell.y) * frame.grid_size.x + cell.x) * frame.grid_size.w;
 }
 vec4 candidate(int entry) {
-  return texelFetch(probe_cells, ivec2(entry & (1 << CELLS_WIDTH_LOG2) - 1, entry >> CELLS_WIDTH_LOG2), 0);
+  return texelFetch(probe_cells, ivec2(entry & (1 << LIST_WIDTH_LOG2) - 1, entry >> LIST_WIDTH_LOG2), 0);
 }
 
 // Texel of a direction in a tile of `size`.

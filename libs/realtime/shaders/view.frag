@@ -5,20 +5,19 @@
 
 layout(binding = 8) uniform sampler2D shadow_image;  // light that arrives, light there would be
 layout(location = 0) out vec4 color;
-const int ALBEDO = 3, NORMAL = 4, DEPTH = 5, SHADOW = 6;
 
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   Surface s = read_surface(at);
   int view = int(frame.environment.w);
   color = vec4(0, 0, 0, 1);
-  if (view == ALBEDO) {
+  if (view == VIEW_ALBEDO) {
     Bsdf bsdf = bsdf_from(s.diffuse, s.f0, s.diffuse_roughness, s.specular_roughness, dot(s.normal, s.wo));
     color.rgb = bsdf.albedo + s.diffuse * (1 - bsdf.albedo);
   }
-  if (view == NORMAL) color.rgb = 0.5 + 0.5 * s.normal;
-  if (view == DEPTH) color.rgb = vec3(s.depth / (1 + s.depth));
-  if (view == SHADOW) {
+  if (view == VIEW_NORMAL) color.rgb = 0.5 + 0.5 * s.normal;
+  if (view == VIEW_DEPTH) color.rgb = vec3(s.depth / (1 + s.depth));
+  if (view == VIEW_SHADOW) {
     vec2 light = texelFetch(shadow_image, at, 0).xy;
     color.rgb = vec3(light.y > 0 ? min(light.x / light.y, 1.0) : 0);  // both sums are rounded
   }

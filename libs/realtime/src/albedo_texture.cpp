@@ -7,7 +7,7 @@
 namespace ssphh::realtime {
 namespace {
 
-constexpr int table_size = 32;  // as the CPU's table, so that both interpolate the same numbers
+constexpr int table_size = shading::albedo_table_size;  // so that both interpolate the same numbers
 
 /// A and B follow from two materials, for E is linear in f0 and f90: the second has the least f0 with f90
 /// = 1.

@@ -1,6 +1,7 @@
 #pragma once
 /// Structures that shaders read, laid out as std140 and std430 ask; their twins stand in shaders/.
 
+#include <array>
 #include <cstddef>
 
 #include <ssphh/core/math.h>
@@ -66,6 +67,9 @@ static_assert(offsetof(GpuEmitter, corners) == 6 * 16 + max_area_samples * 3 * 1
 inline constexpr std::size_t emitter_stride = 5120;
 static_assert(sizeof(GpuEmitter) <= emitter_stride && emitter_stride % 256 == 0);
 
+/// Shadow maps of a sun, each of a part of what the view sees; the last of the whole scene.
+inline constexpr int sun_cascades = 6;
+
 /// SunMap of lights.glsl.
 struct GpuSunMap {
   vec4 origin{0}, right{0}, up{0}, forward{0};
@@ -89,6 +93,16 @@ struct GpuVertex {
   vec4 color{1};
 };
 static_assert(sizeof(GpuVertex) == 60);
+
+/// Lists stand in textures as wide as this power of two.
+inline constexpr int list_width_log2 = 11, list_width = 1 << list_width_log2;
+
+/// Roughnesses of which a probe's radiance is kept; shaders interpolate.
+inline constexpr std::array<float, 6> radiance_roughness = {0, 0.3f, 0.45f, 0.6f, 0.8f, 1};
+
+/// What passes over glass draw: what is mostly no glass; what glass leaves of the light behind it; glass as a
+/// surface that reflects.
+enum class GlassLayer { opaque, through, reflecting };
 
 /// Of what OpenGL keeps as halves.
 inline constexpr float largest_half = 65504;

@@ -16,8 +16,6 @@ namespace ssphh::realtime {
 
 class Lights {
  public:
-  static constexpr int sun_cascades = 6;
-
   /// As at `time` seconds, when the nodes stand as in `world`.
   Lights(const scene::Scene& scene, float time, const std::vector<mat4>& world, const scene::Bounds& bounds,
          const RendererParams& params);

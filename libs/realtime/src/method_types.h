@@ -25,7 +25,6 @@ struct GpuConeBlock {
 static_assert(offsetof(GpuConeBlock, cells) == 5 * 16);
 static_assert(offsetof(GpuConeBlock, first) == (5 + methods::vct::VoxelGrid::most_levels) * 16);
 static_assert(offsetof(GpuConeBlock, lobe_cosines) == (5 + 2 * methods::vct::VoxelGrid::most_levels) * 16);
-static_assert(methods::vct::VoxelGrid::most_levels == 9 && lobe_steps == 128, "as cones.glsl has them");
 static_assert(sizeof(GpuConeBlock) <= 16384, "what every driver offers for a uniform block");
 
 /// Cones (std430): direction about the normal, tangent of the half angle.

@@ -16,16 +16,15 @@ namespace {
 
 /// Depths at which all cascades but the last end, which holds the whole scene: all but one in equal ratios up
 /// to where most of the picture stands, one halfway to the farthest that is seen.
-std::array<float, Lights::sun_cascades - 1> cascade_ends(const DepthSpread& seen, float whole) {
-  constexpr int fine = Lights::sun_cascades - 2;
+std::array<float, sun_cascades - 1> cascade_ends(const DepthSpread& seen, float whole) {
+  constexpr int fine = sun_cascades - 2;
   constexpr float least_spread = 4;  // nothing is gained by maps that hardly differ
   const float far = seen.far > 0 ? std::min(seen.far, whole) : whole;
   const float most = seen.far > 0 ? std::min(seen.most, far) : whole / least_spread;
   const float near = std::min(seen.far > 0 ? seen.near : most / 64, most / least_spread);
-  std::array<float, Lights::sun_cascades - 1> ends;
+  std::array<float, sun_cascades - 1> ends;
   for (int i = 0; i < fine; ++i)
-    ends[static_cast<std::size_t>(i)] =
-        near * std::pow(most / near, static_cast<float>(i + 1) / static_cast<float>(fine));
+    ends[i] = near * std::pow(most / near, static_cast<float>(i + 1) / static_cast<float>(fine));
   ends.back() = std::sqrt(most * far);
   return ends;
 }
@@ -33,8 +32,7 @@ std::array<float, Lights::sun_cascades - 1> cascade_ends(const DepthSpread& seen
 }  // namespace
 
 bool Lights::is_sun(const Source& source) const {
-  return source.light >= 0 &&
-         lights_[static_cast<std::size_t>(source.light)].type == scene::LightType::directional;
+  return source.light >= 0 && lights_[source.light].type == scene::LightType::directional;
 }
 
 bool Lights::any_sun() const {
@@ -54,7 +52,7 @@ int Lights::most_sun_parts(const scene::Scene& scene, const RendererParams& para
 }
 
 void Lights::point_sun(const Source& source, const vec3& axis, float radius) {
-  GpuEmitter& e = emitters_[static_cast<std::size_t>(source.emitter)];
+  GpuEmitter& e = emitters_[source.emitter];
   e.place = vec4(axis, radius);
   if (bounds_) e.items.w = bounds_->layout().columns_log2, e.count.x = bounds_->levels();
   e.more.x = std::sin(radius) / std::sqrt(static_cast<float>(source.parts.size()));
@@ -86,7 +84,7 @@ void Lights::set_parallel(int map, const vec3& forward, const vec3& center, floa
 
 void Lights::place_sun(const Source& source, const scene::CameraPose& camera, float aspect,
                        const DepthSpread& seen, const scene::Bounds& bounds) {
-  GpuEmitter& emitter = emitters_[static_cast<std::size_t>(source.emitter)];
+  GpuEmitter& emitter = emitters_[source.emitter];
   const vec3 eye(camera.world[3]), ahead = -glm::normalize(vec3(camera.world[2]));
   const float half_height =
       camera.camera.orthographic ? 0.5f * camera.camera.yheight : std::tan(0.5f * camera.camera.yfov);
@@ -100,7 +98,7 @@ void Lights::place_sun(const Source& source, const scene::CameraPose& camera, fl
     vec3 center = bounds.center();
     float radius = bounds.radius();
     if (cascade + 1 < sun_cascades) {
-      const float end = ends[static_cast<std::size_t>(cascade)];
+      const float end = ends[cascade];
       const float side = camera.camera.orthographic ? across : across * end;
       const float own = 0.5f * std::sqrt(end * end + 4 * side * side);
       if (own < radius) {
@@ -112,7 +110,7 @@ void Lights::place_sun(const Source& source, const scene::CameraPose& camera, fl
     }
     const int map = source.first_map + i;
     const ParallelKey key{forward, center, radius};
-    std::optional<ParallelKey>& last = parallel_key_[static_cast<std::size_t>(map)];
+    std::optional<ParallelKey>& last = parallel_key_[map];
     if (key == last && !stretched) continue;
     last = key;
     set_parallel(map, forward, center, radius, bounds);
@@ -128,7 +126,7 @@ void Lights::find_environment() {
   directions_ = environment_directions(*environment_, environment_samples_);
   sky_irradiance_ = environment_irradiance(*environment_);
   for (const Source& source : sources_) {
-    GpuEmitter& e = emitters_[static_cast<std::size_t>(source.emitter)];
+    GpuEmitter& e = emitters_[source.emitter];
     if (e.items.x != static_cast<int>(EmitterKind::environment)) continue;
     e.items.z = static_cast<int>(directions_.size());
     for (std::size_t i = 0; i < directions_.size(); ++i) {
@@ -147,7 +145,7 @@ void Lights::turn_environment() {
     distant_.environment_sh[k] = vec4(turned[k], 0);
   const mat3 turn(glm::rotate(mat4(1), turn_, vec3(0, 1, 0)));
   for (const Source& source : sources_) {
-    GpuEmitter& e = emitters_[static_cast<std::size_t>(source.emitter)];
+    GpuEmitter& e = emitters_[source.emitter];
     if (e.items.x != static_cast<int>(EmitterKind::environment)) continue;
     for (std::size_t i = 0; i < directions_.size(); ++i)
       e.samples[i].place = vec4(turn * directions_[i].direction, 0);
@@ -158,7 +156,7 @@ void Lights::turn_environment() {
 void Lights::place_environment(const scene::Bounds& bounds) {
   environment_bounds_ = bounds;
   for (const Source& source : sources_) {
-    const GpuEmitter& e = emitters_[static_cast<std::size_t>(source.emitter)];
+    const GpuEmitter& e = emitters_[source.emitter];
     if (e.items.x != static_cast<int>(EmitterKind::environment)) continue;
     for (std::size_t i = 0; i < directions_.size(); ++i)
       set_parallel(source.first_map + static_cast<int>(i), -vec3(e.samples[i].place), bounds.center(),

@@ -20,8 +20,6 @@ namespace {
 /// Texels of a tile's side. The tests bound what interpolation errs in each band; irradiance has little of
 /// the higher ones, and so has what a rough surface mirrors.
 constexpr int irradiance_tile = 24, radiance_tile = 30;
-/// Roughnesses of which a probe's radiance is kept; shaders interpolate.
-constexpr std::array<float, 6> level_roughness = {0, 0.3f, 0.45f, 0.6f, 0.8f, 1};
 constexpr int largest_face = 256, smallest_face = 32;
 
 constexpr std::array<float, sh::max_degree + 1> ones = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
@@ -37,11 +35,11 @@ int face_size(std::size_t probes, std::size_t bytes) {
 
 /// The grid's lists as probe_lookup.glsl reads them: places, and probes' numbers, which floats hold exactly.
 gl::Texture cell_texture(const probes::CandidateGrid& grid, std::span<const vec3> places) {
-  constexpr std::size_t width = 2048;
+  constexpr std::size_t width = list_width;
   std::vector<vec4> texels((grid.lists.size() + width - 1) / width * width, vec4(0, 0, 0, -1));
   for (std::size_t i = 0; i < grid.lists.size(); ++i) {
     const int probe = grid.lists[i];
-    if (probe >= 0) texels[i] = vec4(places[static_cast<std::size_t>(probe)], static_cast<float>(probe));
+    if (probe >= 0) texels[i] = vec4(places[probe], static_cast<float>(probe));
   }
   gl::Texture texture(gl::Format::rgba32f, width, static_cast<int>(texels.size() / width));
   texture.upload(std::as_bytes(std::span(texels)));
@@ -78,7 +76,7 @@ Probes::Probes(const probes::ProbeSet& set, const probes::LookupParams& params,
   keeps_direct_ = set.surface && !set.surface->direct.empty();
   irradiance_ = TileAtlas(irradiance_tile, keeps_direct_ ? 2 * count() : count());
   radiance_ = TileAtlas(radiance_tile, 1);
-  levels_ = glossy ? static_cast<int>(level_roughness.size()) : 1;
+  levels_ = glossy ? static_cast<int>(radiance_roughness.size()) : 1;
   counters.bytes_uploaded += cells_.bytes();
 
   irradiance_functions_.resize(light_.size() * irradiance_count());
@@ -86,7 +84,7 @@ Probes::Probes(const probes::ProbeSet& set, const probes::LookupParams& params,
 
   maps_ = MapAtlas(face_size(places_.size(), renderer.probe_map_bytes), 6 * count());
   const std::vector<float> reach = probes::probe_reach(grid_, places_);
-  for (int i = 0; i < count(); ++i) place_maps(i, reach[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < count(); ++i) place_maps(i, reach[i]);
 }
 
 void Probes::place_maps(int probe, float reach) {
@@ -96,7 +94,7 @@ void Probes::place_maps(int probe, float reach) {
 
 void Probes::see_all(int probe) {
   if (sees_all_.empty()) sees_all_.assign(places_.size(), 0);
-  unsigned char& known = sees_all_[static_cast<std::size_t>(probe)];
+  unsigned char& known = sees_all_[probe];
   if (!known) place_maps(probe, std::numeric_limits<float>::infinity());
   known = 1;
 }
@@ -114,7 +112,7 @@ void Probes::set_light(std::span<const int> probes, std::span<const sh::Radiance
     if (!std::ranges::all_of(light[i].values, is_finite))
       throw Error(fmt::format("probe {}", probes[i]), "its light is not finite");
   }
-  for (std::size_t i = 0; i < probes.size(); ++i) light_[static_cast<std::size_t>(probes[i])] = light[i];
+  for (std::size_t i = 0; i < probes.size(); ++i) light_[probes[i]] = light[i];
   make_tiles(probes, true, has_radiance_, counters);
   if (fitted_) fitted_->update(probes, irradiance_functions_, irradiance_count(), *surface_, counters);
 }
@@ -164,7 +162,7 @@ void Probes::set_record_light(std::span<const probes::RecordLight> light, FrameC
       [&](std::uint32_t i) {
         SurfaceLight::Coefficients c{};
         c[0] = light[i][3] / 0.28209479f;
-        for (const int k : {1, 2, 3}) c[static_cast<std::size_t>(k)] = light[i][k % 3] / 0.48860251f;
+        for (const int k : {1, 2, 3}) c[k] = light[i][k % 3] / 0.48860251f;
         return c;
       },
       counters);
@@ -203,9 +201,9 @@ void Probes::make_tiles(std::span<const int> probes, bool irradiance, bool radia
     };
     parallel_for(n, 4, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        sh::RadianceSh l = light_[static_cast<std::size_t>(probes[first + i])];
+        sh::RadianceSh l = light_[probes[first + i]];
         for (std::size_t r = 0; radiance && r < static_cast<std::size_t>(levels_); ++r)
-          radiance_basis_.evaluate(l.values, sh::glossy_band_scales(level_roughness[r]), tile(i, r));
+          radiance_basis_.evaluate(l.values, sh::glossy_band_scales(radiance_roughness[r]), tile(i, r));
         if (!irradiance) continue;
         l.values.resize(irradiance_count(), vec3(0));
         if (dering_) l = sh::dering(l, sh::NonNegative::irradiance);
@@ -245,7 +243,7 @@ void Probes::bind_lookup(gl::Program& program) const {
   program.set("irradiance_layout", irradiance_.size(), irradiance_.layout().columns_log2,
               of_moving ? count() : 0);
   program.set("radiance_layout", radiance_.size(), radiance_.layout().columns_log2, levels_);
-  program.set("level_roughness", std::span<const float>(level_roughness));
+  program.set("level_roughness", std::span<const float>(radiance_roughness));
   if (surface_) surface_->bind(program);
 }
 

@@ -27,9 +27,6 @@ enum Pass { shadows, geometry, direct, indirect, seen, glass, resolve, display, 
 inline constexpr const char* pass_names[pass_count] = {"shadows", "geometry", "direct",  "indirect",
                                                        "seen",    "glass",    "resolve", "display"};
 
-/// Of gbuffer.frag.
-enum class GlassLayer { opaque, through, reflecting };
-
 struct Renderer::Data {
   Data(gl::Context& context, const scene::Scene& scene, const RendererParams& params, float time);
 

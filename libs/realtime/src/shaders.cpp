@@ -1,9 +1,5 @@
 #include "shaders.h"
 
-#include <fmt/format.h>
-
-#include <ssphh/probes/lookup_constants.h>
-
 namespace ssphh::realtime {
 namespace {
 
@@ -12,15 +8,6 @@ constexpr const char* kind_names[emitter_kinds] = {"POINT",  "SPHL", "SUN",     
 
 std::string define(const char* name, bool on = true) {
   return on ? std::string("#define ") + name + "\n" : std::string();
-}
-
-/// The numbers that these lookups share with those of the CPU.
-std::string lookup_constants() {
-  std::string lines;
-  for (const probes::ShaderConstant& c : probes::constants_of_shaders)
-    lines += c.whole ? fmt::format("#define {} {:.0f}\n", c.name, c.value)
-                     : fmt::format("#define {} {:#}\n", c.name, c.value);
-  return lines;
 }
 
 }  // namespace
@@ -67,7 +54,7 @@ gl::Program& Shaders::mirrored_environment(bool glass) {
 
 gl::Program& Shaders::indirect_pass(Slot& slot, const char* file, bool full, IndirectOutput output,
                                     const std::string& defines) {
-  const std::string all = defines + define("FULL_BSDF", full) +
+  const std::string all = shader_constants() + defines + define("FULL_BSDF", full) +
                           define("TO_IMAGES", output == IndirectOutput::images) +
                           define("LISTED", output == IndirectOutput::listed) +
                           define("CHOSEN_VIEW", output == IndirectOutput::chosen);
@@ -80,7 +67,7 @@ gl::Program& Shaders::indirect(IndirectLookup lookup, bool full, IndirectOutput 
   if (slot) return *slot;
   return indirect_pass(
       slot, "indirect.glsl", full, output,
-      lookup_constants() + define("LOOKUP_LIGHT", lookup == IndirectLookup::light) +
+      define("LOOKUP_LIGHT", lookup == IndirectLookup::light) +
           define("TRILINEAR", lookup == IndirectLookup::trilinear) +
           define("MLS", lookup == IndirectLookup::mls || lookup == IndirectLookup::surface) +
           define("FITTED", lookup == IndirectLookup::surface && output != IndirectOutput::chosen));

@@ -8,6 +8,7 @@
 #include <ssphh/probes/lookup.h>
 
 #include "gpu_types.h"
+#include "shader_constants.h"
 
 namespace ssphh::realtime {
 
@@ -64,7 +65,8 @@ class Shaders {
   gl::Program& compiled(Slot& slot, gl::Program program);
   template <class Defines>
   gl::Program& get(Slot& slot, const char* vertex, const char* fragment, const Defines& defines) {
-    return slot ? *slot : compiled(slot, gl::Program(*files_, vertex, fragment, defines()));
+    return slot ? *slot
+                : compiled(slot, gl::Program(*files_, vertex, fragment, shader_constants() + defines()));
   }
   gl::Program& get(Slot& slot, const char* fragment) {
     return get(slot, fullscreen, fragment, [] { return std::string(); });

@@ -8,7 +8,7 @@
 namespace ssphh::realtime {
 namespace {
 
-constexpr std::size_t width = 2048;  // CELLS_WIDTH_LOG2 of probe_lookup.glsl
+constexpr std::size_t width = list_width;
 
 /// Rows of `width` texels.
 template <class T>

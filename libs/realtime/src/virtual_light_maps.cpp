@@ -104,7 +104,6 @@ void VirtualLightMaps::bind(gl::Program& program, int pass) const {
   program.set("spheres", params_.kind == methods::vpl::VplKind::sphere ? 1 : 0);
   const float least2 = params_.least_distance * params_.least_distance;
   program.set("most_transfer", least2 > 0 ? 1 / least2 : std::numeric_limits<float>::max());
-  program.set("sharpest_lobe", methods::vpl::sharpest_lobe);
 }
 
 methods::MethodNumbers VirtualLightMaps::numbers() const {

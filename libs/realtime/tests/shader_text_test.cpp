@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "shader_constants.h"
 #include "shader_table.h"
 
 namespace ssphh::realtime {
@@ -57,6 +58,24 @@ TEST(ShaderText, CallsHaveLiteralsOfOneKind) {
   for (const gl::ShaderFiles::Embedded& file : shader_table()) {
     const auto found = mixed_literals(file.text);
     EXPECT_TRUE(found.empty()) << file.name << ": " << found.front();
+  }
+}
+
+// A number that C++ has as well stands there alone.
+TEST(ShaderText, ConstantsOfCppAreUsedAndNotSaidAgain) {
+  static const std::regex define(R"(#define (\w+) \S+\n)");
+  const std::string& lines = shader_constants();
+  for (std::sregex_iterator at(lines.begin(), lines.end(), define), end; at != end; ++at) {
+    const std::string name = at->str(1);
+    const std::regex whole("\\b" + name + "\\b"),
+        again("(const\\s+\\w+[^;]*\\b" + name + "\\s*=|define\\s+" + name + "\\b)");
+    bool used = false;
+    for (const gl::ShaderFiles::Embedded& file : shader_table()) {
+      const std::string text(file.text);
+      used |= std::regex_search(text, whole);
+      EXPECT_FALSE(std::regex_search(text, again)) << name << " in " << file.name;
+    }
+    EXPECT_TRUE(used) << name;
   }
 }
 

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/json_cursor.h>
+
 namespace ssphh::report {
 namespace {
 
@@ -32,8 +34,7 @@ json::Value scenes_data(const Report& report) {
 
 json::Value cell_data(const Report& report, const ReportCell& cell) {
   const Plan& plan = report.plan;
-  const PlanMethod& method =
-      cell.method < 0 ? plan.reference : plan.methods[static_cast<std::size_t>(cell.method)];
+  const PlanMethod& method = cell.method < 0 ? plan.reference : plan.methods[cell.method];
   json::Value parameters = json::Value::object(), values = json::Value::object(),
               steps = json::Value::array();
   for (const auto& [name, text] : cell.parameters) parameters[name] = text;
@@ -131,9 +132,13 @@ std::string report_json(const Report& report) {
 }
 
 std::string identity_of(const std::string& text) {
-  const std::optional<json::Value> report = json::try_parse(text);
-  const json::Value* provenance = report ? report->find("provenance") : nullptr;
-  return provenance ? provenance->text_or("identity", "") : "";
+  try {
+    const std::string where = "report";
+    const json::Value report = json::parse(text, where);
+    return json::Cursor(report, where)["provenance"].text_or("identity");
+  } catch (const Error&) {
+    return "";
+  }
 }
 
 }  // namespace ssphh::report

@@ -7,6 +7,7 @@
 
 #include <ssphh/image/io.h>
 
+#include "gltf_names.h"
 #include "gltf_parts.h"
 #include "printable.h"
 #include "read_light_modes.h"
@@ -61,20 +62,15 @@ Light import_light(const json::Cursor& light, const GltfDocument& document) {
   Light out;
   out.name = light.text_or("name");
   out.group = light_group_extra(light);
-  const json::Cursor type = light["type"];
+  out.type = read_word(gltf_light_types, light["type"]);
   if (const auto color = light.find("color")) out.color = color->vector3();
   if (const auto intensity = light.find("intensity")) out.intensity = intensity->number(0, HUGE_VALF);
   if (const auto range = light.find("range")) {
     out.range = range->number();
     if (!(out.range > 0)) range->fail("must be greater than 0");
   }
-  if (type.text() == "point") {
-    out.type = LightType::point;
-  } else if (type.text() == "directional") {
-    out.type = LightType::directional;
-    out.range = 0;
-  } else if (type.text() == "spot") {
-    out.type = LightType::spot;
+  if (out.type == LightType::directional) out.range = 0;
+  if (out.type == LightType::spot) {
     const json::Cursor spot = light["spot"];
     out.inner_cone = spot.number_or("innerConeAngle", 0);
     out.outer_cone = spot.number_or("outerConeAngle", pi / 4);
@@ -82,13 +78,12 @@ Light import_light(const json::Cursor& light, const GltfDocument& document) {
       spot.fail(fmt::format("cone angles {} and {} must rise from 0 to at most π/2", out.inner_cone,
                             out.outer_cone));
     }
-  } else {
-    type.fail(fmt::format("\"{}\" is none of point, spot, directional", printable(type.text(), 40)));
   }
 
   // Spheres and discs of this project's extras
   const auto more = extra(light, "ssphh");
-  if (more && more->text_or("type") == "sphere") {
+  const std::string type = more ? more->text_or("type") : "";
+  if (type == name_of(LightType::sphere)) {
     if (out.type != LightType::point) more->fail("only a point light can be a sphere");
     out.type = LightType::sphere;
     out.radius = (*more)["radius"].number();
@@ -97,7 +92,7 @@ Light import_light(const json::Cursor& light, const GltfDocument& document) {
     out.intensity =
         radiance ? radiance->number(0, HUGE_VALF) : out.intensity / (pi * out.radius * out.radius);
     if (!std::isfinite(out.intensity)) (*more)["radius"].fail("is too small for the light's intensity");
-  } else if (more && more->text_or("type") == "sphl") {
+  } else if (type == name_of(LightType::sphl)) {
     if (out.type != LightType::point) more->fail("only a point light can be an SPHL");
     out.radius = (*more)["radius"].number();
     if (!(out.radius > 0)) (*more)["radius"].fail("must be greater than 0");

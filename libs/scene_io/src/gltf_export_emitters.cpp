@@ -38,32 +38,30 @@ json::Value export_light(const scene::Light& light) {
   out["intensity"] = number(light.intensity);
   if (light.range > 0 && light.type != LightType::directional) out["range"] = number(light.range);
   if (!light.group.empty()) out["extras"]["light_group"] = light.group;
+  const bool with_extras = light.type == LightType::sphere || light.type == LightType::sphl;
+  out["type"] = name_in(gltf_light_types, with_extras ? LightType::point : light.type);
   switch (light.type) {
     case LightType::point:
-      out["type"] = "point";
       break;
     case LightType::directional:
-      out["type"] = "directional";
       if (light.angular_radius > 0) out["extras"]["ssphh"]["angular_radius"] = number(light.angular_radius);
       break;
     case LightType::spot: {
       // glTF's cones end at a right angle, and the inner one is smaller than the outer.
       const float outer = std::clamp(light.outer_cone, 1e-6f, pi / 2);
       const float inner = std::min(light.inner_cone, std::nextafter(outer, 0.0f));
-      out["type"] = "spot";
       out["spot"] = {{"innerConeAngle", number(inner)}, {"outerConeAngle", number(outer)}};
       break;
     }
     case LightType::sphere:
-      out["type"] = "point";
       out["intensity"] = number(light.intensity * pi * light.radius * light.radius);
-      out["extras"]["ssphh"] = {
-          {"type", "sphere"}, {"radius", number(light.radius)}, {"radiance", number(light.intensity)}};
+      out["extras"]["ssphh"] = {{"type", name_of(light.type)},
+                                {"radius", number(light.radius)},
+                                {"radiance", number(light.intensity)}};
       break;
     case LightType::sphl:
-      out["type"] = "point";
       out["intensity"] = number(light.intensity * luminance(scene::mean_intensity(light.emission.frames[0])));
-      out["extras"]["ssphh"] = {{"type", "sphl"}, {"radius", number(light.radius)}};
+      out["extras"]["ssphh"] = {{"type", name_of(light.type)}, {"radius", number(light.radius)}};
       out["extras"]["ssphh"]["emission"] = frames_to_json(light.emission);
       out["extras"]["ssphh"]["emission"]["intensity"] = number(light.intensity);
       break;

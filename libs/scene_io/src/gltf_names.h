@@ -24,6 +24,12 @@ inline constexpr auto gltf_interpolations =
                                                    {scene::Interpolation::step, "STEP"},
                                                    {scene::Interpolation::cubic_spline, "CUBICSPLINE"}});
 
+/// Of KHR_lights_punctual; the others are extras of a point light.
+inline constexpr auto gltf_light_types =
+    std::to_array<EnumName<scene::LightType>>({{scene::LightType::point, "point"},
+                                               {scene::LightType::spot, "spot"},
+                                               {scene::LightType::directional, "directional"}});
+
 inline constexpr std::pair<scene::Wrap, unsigned> gltf_wraps[] = {
     {scene::Wrap::repeat, 10497}, {scene::Wrap::mirror, 33648}, {scene::Wrap::clamp, 33071}};
 

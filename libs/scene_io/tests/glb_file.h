@@ -36,7 +36,7 @@ struct GlbFile {
   /// The bytes of a view of buffer 0.
   std::vector<std::byte> view(std::size_t index) const {
     const json::Value& v = json["bufferViews"][index];
-    const auto begin = static_cast<std::ptrdiff_t>(v.number_or("byteOffset", 0));
+    const auto begin = v.contains("byteOffset") ? static_cast<std::ptrdiff_t>(v["byteOffset"].number()) : 0;
     const auto length = static_cast<std::ptrdiff_t>(v["byteLength"].number());
     return {binary.begin() + begin, binary.begin() + begin + length};
   }

@@ -26,12 +26,51 @@ static_assert(sizeof(Header) == 64 && std::is_trivially_copyable_v<Header>);
 /// All images of a state in file order, with their channel counts.
 template <class State, class Visit>
 void for_each_image(State& state, const Visit& visit) {
-  visit(state.color, 3), visit(state.direct, 3), visit(state.indirect, 3);
-  visit(state.albedo, 3), visit(state.normal, 3), visit(state.depth, 1), visit(state.coverage, 1);
-  for (auto& group : state.groups) visit(group, 3);
+  for (const RenderLayer layer : render_layers()) {
+    for (auto& image : images_of(state, layer)) visit(image, channels_of(layer));
+  }
 }
 
 }  // namespace
+
+std::span<const RenderLayer> render_layers() {
+  static constexpr auto all = [] {
+    std::array<RenderLayer, enum_names<RenderLayer>.size()> layers{};
+    for (std::size_t i = 0; i < layers.size(); ++i) layers[i] = enum_names<RenderLayer>[i].value;
+    return layers;
+  }();
+  return all;
+}
+
+std::span<image::Image> images_of(RenderState& state, RenderLayer layer) {
+  switch (layer) {
+    case RenderLayer::color:
+      return {&state.color, 1};
+    case RenderLayer::direct:
+      return {&state.direct, 1};
+    case RenderLayer::indirect:
+      return {&state.indirect, 1};
+    case RenderLayer::albedo:
+      return {&state.albedo, 1};
+    case RenderLayer::normal:
+      return {&state.normal, 1};
+    case RenderLayer::depth:
+      return {&state.depth, 1};
+    case RenderLayer::coverage:
+      return {&state.coverage, 1};
+    case RenderLayer::groups:
+      return state.groups;
+  }
+  refuse("layer of a picture", "there is none of that number");
+}
+
+std::span<const image::Image> images_of(const RenderState& state, RenderLayer layer) {
+  return images_of(const_cast<RenderState&>(state), layer);
+}
+
+int channels_of(RenderLayer layer) {
+  return layer == RenderLayer::depth || layer == RenderLayer::coverage ? 1 : 3;
+}
 
 Hash128 render_key(const Hash128& scene_hash, float time, const RenderParams& params) {
   Hasher h;
@@ -53,12 +92,10 @@ Tile tile_of(const RenderParams& params) {
 RenderState empty_state(const RenderParams& params, std::size_t light_groups) {
   RenderState state;
   const Tile tile = tile_of(params);
-  for (image::Image* i : {&state.color, &state.direct, &state.indirect, &state.albedo, &state.normal}) {
-    *i = image::Image(tile.width, tile.height, 3);
-  }
-  state.depth = image::Image(tile.width, tile.height, 1);
-  state.coverage = image::Image(tile.width, tile.height, 1);
-  if (params.per_group) state.groups.assign(light_groups, image::Image(tile.width, tile.height, 3));
+  if (params.per_group) state.groups.resize(light_groups);
+  for_each_image(state, [&](image::Image& image, int channels) {
+    image = image::Image(tile.width, tile.height, channels);
+  });
   return state;
 }
 

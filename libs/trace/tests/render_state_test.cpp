@@ -23,6 +23,24 @@ trace::RenderState some_state() {
   return render(scene, params);
 }
 
+TEST(RenderState, LayersAreItsImagesInTheirOrder) {
+  trace::RenderState state;
+  state.groups.resize(2);
+  const std::vector<const image::Image*> images = {&state.color,    &state.direct,    &state.indirect,
+                                                   &state.albedo,   &state.normal,    &state.depth,
+                                                   &state.coverage, &state.groups[0], &state.groups[1]};
+  std::vector<const image::Image*> found;
+  for (const trace::RenderLayer layer : trace::render_layers()) {
+    for (const image::Image& image : trace::images_of(std::as_const(state), layer)) found.push_back(&image);
+    EXPECT_EQ(trace::images_of(state, layer).data(), trace::images_of(std::as_const(state), layer).data());
+  }
+  EXPECT_EQ(found, images);
+  EXPECT_THROW(trace::images_of(state, static_cast<trace::RenderLayer>(8)), Error);
+  const trace::RenderState rendered = some_state();
+  for (const trace::RenderLayer layer : trace::render_layers())
+    EXPECT_EQ(trace::images_of(rendered, layer)[0].channels, trace::channels_of(layer)) << name_of(layer);
+}
+
 TEST(RenderState, DamagedCheckpointsAreRefused) {
   const TempDir folder(memory_dir());
   const trace::RenderState state = some_state();

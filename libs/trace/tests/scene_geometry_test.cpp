@@ -18,6 +18,12 @@
 namespace ssphh::test {
 namespace {
 
+// What stands on a geometry goes wherever its owner goes.
+static_assert(std::is_nothrow_move_constructible_v<trace::PathTracer> &&
+              std::is_nothrow_move_assignable_v<trace::PathTracer>);
+static_assert(std::is_nothrow_move_constructible_v<trace::TransportScene> &&
+              std::is_nothrow_move_assignable_v<trace::TransportScene>);
+
 using trace::SceneGeometry;
 
 vec3 random_point(const scene::Bounds& bounds, Pcg32& random) {

@@ -8,9 +8,17 @@
 #include <ssphh/transport/network.h>
 
 #include "network_memory.h"
+#include "probe_places.h"
 
 namespace ssphh::methods::probe_volume {
 namespace {
+
+/// How light is found between probes.
+enum class Interpolation { tetrahedra, trilinear };
+constexpr auto enum_table(Interpolation) {
+  using enum Interpolation;
+  return std::to_array<EnumName<Interpolation>>({{tetrahedra, "tetrahedra"}, {trilinear, "trilinear"}});
+}
 
 std::vector<scene::ProbePlace> manual_places(const place::PlaceParams& params) {
   if (params.manual.empty())
@@ -64,9 +72,9 @@ ProbeVolume::ProbeVolume(const MethodScene& scene, const MethodParameters& p, in
                          const Control& control)
     : environment_group_(scene.source.environment_group()) {
   const place::PlaceParams seen = place::place_params(scene.scene);
-  const bool trilinear = p.choice("interpolation") == "trilinear";
+  const bool trilinear = p.choice<Interpolation>("interpolation") == Interpolation::trilinear;
   std::vector<scene::ProbePlace> places;
-  if (p.choice("places") == "grid") {
+  if (probe_places(p) == ProbePlaces::grid) {
     const ProbeGrid grid = grid_of(scene, seen, p, control);
     places = grid_places(grid);
     if (trilinear) weights_ = std::make_shared<const VolumeWeights>(grid);
@@ -74,7 +82,8 @@ ProbeVolume::ProbeVolume(const MethodScene& scene, const MethodParameters& p, in
     if (trilinear)
       throw Error("light probes", "interpolation=trilinear needs probes on a grid",
                   "add places=grid, or interpolate within tetrahedra");
-    places = p.choice("places") == "scene" ? manual_places(seen) : found_places(scene, seen, p, control);
+    places =
+        probe_places(p) == ProbePlaces::scene ? manual_places(seen) : found_places(scene, seen, p, control);
   }
   const std::vector<vec3> positions = scene::positions_of(places);
   if (!weights_) weights_ = std::make_shared<const VolumeWeights>(positions);
@@ -92,7 +101,7 @@ void ProbeVolume::update(const scene::LightingState& state, int dark, const Cont
   state_ = state;
   state_.emission.clear();
   if (dark >= 0) {
-    state_.group_scales[static_cast<std::size_t>(dark)] = vec3(0);
+    state_.group_scales[dark] = vec3(0);
     // What does not light the probes need not be found anew for them
     if (dark == environment_group_) {
       state_.environment_rotation = session_->lighting().environment_rotation;
@@ -123,12 +132,12 @@ MethodNumbers ProbeVolume::numbers() const {
 
 std::vector<MethodParameter> probe_volume_parameters() {
   return {
-      word_parameter("places", {"auto", "scene", "grid"},
-                     "of the probes: found, the scene's own SPHLs, or a regular grid"),
+      places_parameter({ProbePlaces::found, ProbePlaces::scene, ProbePlaces::grid},
+                       "of the probes: found, the scene's own SPHLs, or a regular grid"),
       {"spacing", 0, 0, 1e4, "between probes that are placed [m]; 0: some 100 to 200 probes"},
       {"probes", 0, 0, 4096, "so many are placed, places of a grid counted; 0: as the spacing gives", true},
-      word_parameter("interpolation", {"tetrahedra", "trilinear"},
-                     "between the probes; trilinear on a grid only"),
+      choice_parameter("interpolation", Interpolation::tetrahedra,
+                       "between the probes; trilinear on a grid only"),
       {"surfel_size", 0, 0, 1e3, "edge of a surfel [m]; 0: by the scene's radius and the probes' distance"},
       {"directions", 384, 16, 65536, "rays of a probe", true}};
 }

@@ -5,13 +5,13 @@
 
 #include <array>
 
-#include <ssphh/core/math.h>
+#include <ssphh/shading/bsdf.h>
 
 namespace ssphh::shading {
 
 class AlbedoTable {
  public:
-  static constexpr int size = 32;  ///< nodes in μ and in roughness
+  static constexpr int size = albedo_table_size;
 
   explicit AlbedoTable(bool phong);
 
@@ -19,7 +19,7 @@ class AlbedoTable {
   vec2 directional(float mu, float roughness) const {
     const Place r = place(roughness), m = place(mu);
     const auto row = [&](int i) {
-      const vec2* v = &values_[static_cast<std::size_t>(i)][static_cast<std::size_t>(m.index)];
+      const vec2* v = &values_[i][m.index];
       return v[0] + m.fraction * (v[1] - v[0]);
     };
     const vec2 a = row(r.index), b = row(r.index + 1);
@@ -28,7 +28,7 @@ class AlbedoTable {
   /// Cosine-weighted mean over the hemisphere, exactly that of the interpolated `directional`.
   vec2 mean(float roughness) const {
     const Place r = place(roughness);
-    const vec2* v = &means_[static_cast<std::size_t>(r.index)];
+    const vec2* v = &means_[r.index];
     return v[0] + r.fraction * (v[1] - v[0]);
   }
 

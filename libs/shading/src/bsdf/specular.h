@@ -9,9 +9,6 @@
 
 namespace ssphh::shading {
 
-/// α below which a lobe is not narrowed: a mirror is a lobe of ±0.06°, and no special case anywhere.
-inline constexpr float min_alpha = 1e-3f;
-
 /// α of a perceptual roughness magnitude.
 inline float alpha_of_roughness(float roughness) {
   return glm::clamp(roughness * roughness, min_alpha, 1.0f);
@@ -22,15 +19,14 @@ struct SpecularLobe {
   float roughness;  ///< magnitude, 0..1
   float alpha;
   vec3 f0;
-  float f90;  ///< 1 from f0 = 0.02 on, fading to 0 with f0: nothing real has a smaller f0, so it means
-              ///< occlusion
+  float f90;  ///< by f90_per_f0
 
   explicit SpecularLobe(const BsdfParams& params)
       : phong(params.specular_roughness < 0),
         roughness(glm::min(std::abs(params.specular_roughness), 1.0f)),
         alpha(alpha_of_roughness(roughness)),
         f0(params.f0),
-        f90(glm::min(1.0f, 50 * max_component(params.f0))) {}
+        f90(glm::min(1.0f, f90_per_f0 * max_component(params.f0))) {}
 
   /// Schlick's approximation.
   vec3 fresnel(float cos_h) const {

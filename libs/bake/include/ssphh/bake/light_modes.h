@@ -16,11 +16,11 @@ namespace ssphh::bake {
 /// Indices of the groups whose direct light is kept: transport::GatherParams::baked.
 std::vector<int> baked_indices(std::span<const scene::LightMode> modes);
 
-/// Of the scene's light groups, in their order: what it asks for, else with `records` what is usual for them.
-/// Without, nothing is kept unasked.
+/// The modes of the scene's light groups, in their order: what it asks for, else with `records` what is usual
+/// for them. Without, nothing is kept unasked.
 std::vector<scene::LightMode> light_modes(const scene::Scene& scene, bool records);
 
-/// Of the set's light groups, in their order.
+/// The modes of the set's light groups, in their order.
 std::vector<scene::LightMode> light_modes(const probes::ProbeSet& set);
 
 /// Gives the set's light groups, which are those of the source in its order, their modes. What the emitters
@@ -36,8 +36,8 @@ void set_light_modes(const rays::TransportSource& source, probes::ProbeSet& set,
 /// mode_difference().
 void adopt_modes(probes::ProbeSet& set, const scene::Scene& scene);
 
-/// Of which groups the scene asks for direct light that the set does not keep: "light group "sky" as
-/// realtime, asked for as baked; ..."; empty: none.
+/// Names the groups of which the scene asks for direct light that the set does not keep: "light group "sky"
+/// as realtime, asked for as baked; ..."; empty: none.
 std::string mode_difference(const probes::ProbeSet& set, const scene::Scene& scene);
 
 /// A line for each baked group with lamps whose shadows are sharp, which records blur; empty: none.

@@ -54,7 +54,7 @@ std::vector<std::string> names_in(const std::array<EnumName<E>, N>& table) {
   return names;
 }
 
-/// The same of an enum's own table.
+/// The first name of a value, the value of a name, and all names of an enum's own table.
 template <class E>
 requires std::is_enum_v<E>
 constexpr std::string_view name_of(E value) {

@@ -86,7 +86,7 @@ class Value {
   /// None for what is no number, has a fraction, or lies beyond 64 bits (2^53 where it was written with a
   /// point or exponent).
   std::optional<std::int64_t> integer() const;
-  /// Those of a number that is_integer().
+  /// The decimal digits of a number that is_integer(), with its sign.
   std::string digits() const;
   const std::string& string() const;
   const Array& elements() const;
@@ -113,9 +113,6 @@ class Value {
   Value& operator[](std::string_view name);
   Value& operator[](const char* name) { return (*this)[std::string_view(name)]; }
   Value& operator[](const std::string& name) { return (*this)[std::string_view(name)]; }
-  /// Value of a member of an object; `otherwise` where it is absent or of another kind.
-  double number_or(std::string_view name, double otherwise) const;
-  std::string text_or(std::string_view name, const std::string& otherwise) const;
   void erase(std::string_view name);
   /// Adds the members of another object, or replaces those of the same name.
   void update(const Value& object);

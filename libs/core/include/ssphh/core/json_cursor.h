@@ -64,7 +64,7 @@ class Cursor {
   /// Number that a float can hold.
   float number() const;
   float number(double least, double most) const;
-  /// The same with all of its digits.
+  /// Number with all the digits of a double.
   double precise_number() const;
   double precise_number(double least, double most) const;
   bool boolean() const;

@@ -39,7 +39,7 @@ class RangeBody {
 /// the loop is done (ranges that have begun are finished).
 void parallel_for(std::size_t count, std::size_t grain, const RangeBody& body, const Control& control = {});
 
-/// The same for a body that takes one index.
+/// Calls a body that takes one index, for each of them.
 template <std::invocable<std::size_t> Body>
 void parallel_for(std::size_t count, std::size_t grain, const Body& body, const Control& control = {}) {
   const auto range = [&body](std::size_t begin, std::size_t end) {

@@ -24,7 +24,7 @@ std::optional<Number> parse_number(std::string_view text) {
   return number;
 }
 
-/// Those of a text like "0,2.5,-1"; none where one of them is no number.
+/// The numbers of a text like "0,2.5,-1"; none where one of them is no number.
 std::optional<std::vector<float>> parse_numbers(std::string_view text);
 
 }  // namespace ssphh

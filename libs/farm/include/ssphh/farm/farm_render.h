@@ -14,11 +14,12 @@ struct RenderProbes {
 };
 
 /// All of `params.path.passes` passes of the whole picture, bit for bit as PathTracer::render or, with
-/// `probes`, render_with. Images that `layers` (names of layer_names(), in that order) leave out are black.
+/// `probes`, render_with. Images that `layers` (each once, in the order of their table) leave out are
+/// black.
 /// Tiles that are in options.results are taken from there.
 trace::RenderState render(const FarmOptions& options, const scene::Scene& scene, float time,
                           const trace::RenderParams& params, const std::optional<RenderProbes>& probes,
-                          const std::vector<std::string>& layers, FarmReport& report,
+                          const std::vector<trace::RenderLayer>& layers, FarmReport& report,
                           const Control& control = {});
 
 /// Edge of a tile in pixels; at the right and lower edge they are smaller.

@@ -56,13 +56,9 @@ struct TileJob {
   SceneRef scene;
   trace::RenderParams params;  ///< `tile` is not used
   std::vector<trace::Tile> tiles;
-  std::vector<std::string> layers;  ///< of layer_names(), in that order
+  std::vector<trace::RenderLayer> layers;  ///< each once, in the order of their table
   std::optional<ProbeLighting> lighting;
 };
-
-/// "color", "direct", "indirect", "albedo", "normal", "depth", "coverage", "groups": the images of a
-/// RenderState.
-const std::vector<std::string>& layer_names();
 
 using Job = std::variant<ProbeJob, TileJob>;
 

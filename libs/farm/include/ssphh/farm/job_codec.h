@@ -19,7 +19,8 @@ std::string encode_job(const Job& job, ContentType type);
 Job decode_job(std::string_view body);
 
 std::string encode_result(const JobResult& result, ContentType type);
-/// As decode_job. Sizes are checked against the bytes that are there before memory is taken.
+/// Reads a result as decode_job() reads a job. Sizes are checked against the bytes that are there before
+/// memory is taken.
 JobResult decode_result(std::string_view body);
 
 inline constexpr int job_version = 2;

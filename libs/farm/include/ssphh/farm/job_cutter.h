@@ -10,7 +10,8 @@ class JobCutter {
  public:
   explicit JobCutter(double seconds, std::size_t most = 1024) : seconds_(seconds), most_(most) {}
 
-  /// Of `left` units for `workers`: fewer toward the end, so that all workers end together.
+  /// How many of `left` units the next job of `workers` gets: fewer toward the end, so that all workers end
+  /// together.
   std::size_t next(std::size_t left, std::size_t workers) const;
   /// A job of `units` took `seconds` on one worker.
   void learn(std::size_t units, double seconds);

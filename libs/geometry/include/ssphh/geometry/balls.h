@@ -23,7 +23,7 @@ class Balls {
   void visit(const vec3& x, const Use& use) const {
     visit_box(x, x, use);
   }
-  /// Likewise for the box from `low` to `high`.
+  /// Calls `use` so for each ball whose centre is nearer to the box from `low` to `high` than its radius.
   template <class Use>
   void visit_box(const vec3& low, const vec3& high, const Use& use) const {
     visit(0, items_.size(), low, high, use);

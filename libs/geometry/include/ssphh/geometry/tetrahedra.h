@@ -17,7 +17,7 @@ struct CornerWeight {
   float weight;
 };
 
-/// Of four points at most; the first `count` entries hold.
+/// Weights of four points at most; the first `count` entries hold.
 struct CornerWeights {
   std::array<CornerWeight, 4> entries;
   int count = 0;
@@ -43,7 +43,7 @@ class Tetrahedra {
   /// None where the points lie in a plane or on a line. Vertices are indices of lattice points; corners()
   /// says which of the points given these are.
   const std::vector<Tetrahedron>& cells() const { return cells_; }
-  /// Of a cell: indices among the points given.
+  /// The corners of a cell, as indices among the points given.
   std::array<std::int32_t, 4> corners(const Tetrahedron& cell) const {
     std::array<std::int32_t, 4> points;
     for (std::size_t k = 0; k < 4; ++k) points[k] = index_[static_cast<std::size_t>(cell.vertex[k])];

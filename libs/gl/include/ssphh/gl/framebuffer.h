@@ -16,7 +16,7 @@ class Framebuffer {
   Framebuffer(std::span<const Texture* const> colors, const Texture* depth);
   /// One layer of an array, depth or colour, nothing else; of a mipmap level.
   Framebuffer(const Texture& texture, int layer, int level = 0);
-  /// The same layer of an array of colours and of one of depths.
+  /// Draws into the same layer of an array of colours and of one of depths.
   Framebuffer(const Texture& color, const Texture& depth, int layer);
 
   unsigned id() const { return handle_.get(); }

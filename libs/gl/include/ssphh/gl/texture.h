@@ -38,7 +38,7 @@ class Texture {
   Format format() const { return format_; }
   std::size_t bytes() const;
 
-  /// As an image that shaders read and write texel by texel, level 0.
+  /// Binds level 0 as an image that shaders read and write texel by texel.
   void bind_image(unsigned unit) const;
 
   /// Whole level 0 of one layer, rows as in memory: row 0 first. 8-bit formats take bytes, others floats.
@@ -62,8 +62,8 @@ struct Size {
   int width = 0, height = 0;
   friend bool operator==(const Size&, const Size&) = default;
 };
-/// Of level 0 of a 2-D texture that somebody else made, by OpenGL's number. Throws Error that begins with
-/// `what` where there is none.
+/// The size of level 0 of a 2-D texture that somebody else made, by OpenGL's number. Throws Error that begins
+/// with `what` where there is none.
 Size size_of_texture(unsigned id, const std::string& what);
 /// By OpenGL's number.
 void bind_texture(unsigned unit, unsigned id);

@@ -15,7 +15,7 @@ class Timer {
 
   void begin();
   void end();
-  /// Of the last span whose time is known; 0 before the first.
+  /// Milliseconds of the last span whose time is known; 0 before the first.
   double gpu_ms() const { return gpu_ms_; }
   /// Time that the calls themselves took; on a software renderer as gpu_ms.
   double cpu_ms() const { return cpu_ms_; }
@@ -35,7 +35,7 @@ class SampleCounter {
 
   void begin();
   void end();
-  /// Of the last span whose count is known: on a GPU some frames ago. 0 before the first.
+  /// The count of the last span of which it is known: on a GPU some frames ago. 0 before the first.
   std::uint64_t count() const { return count_; }
 
  private:

@@ -48,7 +48,7 @@ struct Charts {
   std::vector<std::string> notes;  ///< what has none and why, a line each
 };
 
-/// Of all surfaces that stand still, or of all, posed at `time`: not of unlit materials and of clear
+/// Charts of all surfaces that stand still, or of all, posed at `time`: not of unlit materials and of clear
 /// glass, of triangles without area, nor where a material's textures take both sets of coordinates, which
 /// leaves none for a lightmap. Throws Error with UvChoice::scene for a mesh without second coordinates, or
 /// whose second coordinates leave [0, 1] or overlap; Cancelled when asked to stop.

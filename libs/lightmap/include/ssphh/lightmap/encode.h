@@ -5,7 +5,7 @@
 
 namespace ssphh::lightmap {
 
-/// Of RGBM: a value is scale · (8 · alpha · colour)², as PlayCanvas decodes it with scale 1.
+/// How RGBM is read: a value is scale · (8 · alpha · colour)², as PlayCanvas decodes it with scale 1.
 struct Rgbm {
   image::Rgba8 picture;
   float scale = 1;  ///< 1, or more where a value exceeds 64

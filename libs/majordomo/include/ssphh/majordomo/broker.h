@@ -26,23 +26,25 @@ struct BrokerOptions {
   /// full queue answers none either: shorter finds dead links sooner, longer is kinder to slow readers.
   Millis connection_timeout = 6000;
   Millis drain = 10'000;  ///< how long stop() waits for requests that are running
-  /// Told every event (docs/protocol.md lists them) on the thread of run(); empty: core's log.
-  std::function<void(const BrokerEvent&)> on_event = {};
   /// Lesser events are not made; `debug` tells every job.
   LogLevel least_event = LogLevel::info;
 };
 
+/// Is told every event (docs/protocol.md lists them) on the thread of run().
+using BrokerEventSink = std::function<void(const BrokerEvent&)>;
+
 class Broker {
  public:
-  /// Binds. Throws Error when the endpoint is taken, not local without keys, or the store cannot be opened.
-  explicit Broker(BrokerOptions options);
+  /// Binds. Events go to `on_event`, where that is empty to core's log. Throws Error when the endpoint is
+  /// taken, not local without keys, or the store cannot be opened.
+  explicit Broker(BrokerOptions options, BrokerEventSink on_event = {});
   ~Broker();
   Broker(const Broker&) = delete;
   Broker& operator=(const Broker&) = delete;
 
   /// What was bound, with the port that was found. From any thread, also while run() serves.
   std::string endpoint() const;
-  /// Of the metrics; empty when there is none. From any thread.
+  /// The endpoint of the metrics; empty when there is none. From any thread.
   std::string metrics_endpoint() const;
   /// Serves until stop(); then takes no new requests, waits for running ones for at most `drain`, tells the
   /// workers and returns. Throws Error when the store fails.

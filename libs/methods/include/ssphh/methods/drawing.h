@@ -41,8 +41,8 @@ sketch::Sketch tetrahedra_drawing(const geometry::Tetrahedra& tetrahedra, std::s
 /// A disc for each, as posed, as wide as its voxel, in its albedo.
 sketch::Sketch surfels_drawing(const transport::TransportNetwork& network);
 
-/// Of some surfels, spread over the scene: disc, and a line to each surfel that cosine rays from it meet,
-/// white where many do and blue where few do.
+/// Draws of some surfels, spread over the scene: their disc, and a line to each surfel that cosine rays from
+/// it meet, white where many do and blue where few do.
 sketch::Sketch links_drawing(const transport::TransportNetwork& network);
 
 }  // namespace ssphh::methods

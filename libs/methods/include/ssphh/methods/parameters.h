@@ -28,10 +28,10 @@ inline MethodParameter word_parameter(const char* name, std::vector<std::string>
   return {name, static_cast<double>(index), 0, most, about, true, std::move(words)};
 }
 
-/// The choice of an enum's value by its name.
+/// The choice of an enum's value by its name, where not all are meant one of `names`.
 template <class E>
-MethodParameter choice_parameter(const char* name, E value, const char* about) {
-  const std::vector<std::string> names = names_of<E>();
+MethodParameter choice_parameter(const char* name, E value, const char* about,
+                                 const std::vector<std::string>& names = names_of<E>()) {
   return word_parameter(name, names, about,
                         static_cast<std::size_t>(std::ranges::find(names, name_of(value)) - names.begin()));
 }
@@ -48,7 +48,7 @@ class MethodParameters {
   int integer(const std::string& name) const;
   bool flag(const std::string& name) const { return integer(name) != 0; }
   const std::string& choice(const std::string& name) const;
-  /// Of a choice_parameter.
+  /// The value that was chosen of a choice_parameter().
   template <class E>
   E choice(const std::string& name) const {
     return *parse_enum<E>(choice(name));

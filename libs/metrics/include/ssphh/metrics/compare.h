@@ -9,12 +9,26 @@
 #include <array>
 #include <cstdint>
 
+#include <ssphh/core/enum_names.h>
 #include <ssphh/image/image.h>
 
 namespace ssphh::metrics {
 
 /// Added to the squared reference in relMSE, so that black pixels do not decide it.
 inline constexpr double relative_epsilon = 1e-2;
+
+/// What a map of errors shows: |d|, d with its sign, the sum of |d| in each block, d² over the reference's,
+/// FLIP, false edges.
+enum class ErrorMap { absolute, with_sign, pixelated, relmse, flip, edges };
+constexpr auto enum_table(ErrorMap) {
+  using enum ErrorMap;
+  return std::to_array<EnumName<ErrorMap>>({{absolute, "absolute"},
+                                            {with_sign, "signed"},
+                                            {pixelated, "pixelated"},
+                                            {relmse, "relmse"},
+                                            {flip, "flip"},
+                                            {edges, "edges"}});
+}
 
 struct ImageError {
   int width = 0, height = 0;

@@ -24,12 +24,12 @@ struct FlipError {
   int exposures = 0;
 };
 
-/// Of two pictures as shown on a screen: linear Rec.709 in [0, 1] (clamped). Throws Error when the sizes
-/// differ or an image is empty.
+/// Compares two pictures as shown on a screen: linear Rec.709 in [0, 1] (clamped). Throws Error when the
+/// sizes differ or an image is empty.
 FlipError flip(const image::Image& reference, const image::Image& test, const FlipParams& params = {});
 
-/// Of two scene-linear pictures: the largest error per pixel over the exposures, 1 stop apart or less, at
-/// which a part of the reference is well exposed (its brightest pixel, then its median, at 85 % after the
+/// Compares two scene-linear pictures: the largest error per pixel over the exposures, 1 stop apart or less,
+/// at which a part of the reference is well exposed (its brightest pixel, then its median, at 85 % after the
 /// ACES curve). A reference that is black everywhere, or in most pixels, has no such range: then the
 /// exposures run over the pixels above 0, or are 0 alone.
 FlipError hdr_flip(const image::Image& reference, const image::Image& test, const FlipParams& params = {});

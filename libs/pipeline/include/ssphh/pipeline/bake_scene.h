@@ -36,7 +36,8 @@ struct BakeSettings {
   /// GEN and VIZ by paths. Its seed, keep_light, viz and viz_path are not read, nor are the neighbours, the
   /// threshold and the source of VIZ: they follow from the other settings.
   bake::BakeParams params;
-  /// Of transport; its operator, viz and number of records are not read either, nor the same of its VIZ.
+  /// How light is found by transport; its operator, viz and number of records are not read either, nor the
+  /// same of its VIZ.
   bake::TransportBakeParams transport;
   std::optional<int> neighbors;  ///< most edges of a probe, strongest first; -1: all
   /// Surface points that keep light; none given: usual_records where probes hold every bounce, too, or a

@@ -45,9 +45,9 @@ void check_method(const std::string& method, bool with_parameters, bool with_pro
 /// draw.
 void check_drawings(const std::string& method, bool with_probes, std::span<const methods::Drawing> drawings);
 
-/// Of a method made for the picture. Warns in the log where there is nothing of that.
+/// What there is to draw of a method made for the picture. Warns in the log where there is nothing of that.
 sketch::Sketch drawn_of(const methods::Method& method, std::span<const methods::Drawing> drawings);
-/// Of made probes: their hierarchy.
+/// What there is to draw of made probes: their hierarchy.
 sketch::Sketch drawn_of(const probes::ProbeSet& set, std::span<const methods::Drawing> drawings);
 
 /// Adds passes to `state`, as trace::PathTracer::render does, of the scene posed at `time`. Returns what a

@@ -32,8 +32,8 @@ scene::Scene load_scene(const SceneOptions& options);
 /// For those who look at light: a scene without any gets a neutral studio around it, and a warning.
 scene::Scene load_lit_scene(const SceneOptions& options);
 
-/// The same; `files` are those that it was read from, as far as it came before it threw, and the overlay
-/// beside SCENE, be there one or not.
+/// Loads and lights it likewise; `files` are those that it was read from, as far as it came before it threw,
+/// and the overlay beside SCENE, be there one or not.
 scene::Scene load_lit_scene(const SceneOptions& options, std::vector<FileStamp>& files);
 
 /// Warns about SPHLs that shine from inside of a body, where nobody would see their light.

@@ -12,7 +12,7 @@ namespace ssphh::place {
 /// without SPHLs.
 probes::ProbeSet init_from_scene(const scene::Scene& scene, int degree, float time = 0);
 
-/// The same for places that place_probes found.
+/// A set without light at the places that place_probes() found.
 probes::ProbeSet init_from_placement(const scene::Scene& scene, const Placement& placement, int degree,
                                      float time = 0);
 

@@ -31,7 +31,7 @@ struct Site {
 /// Looks around from `position` in part 0 of the source.
 Site look_around(const rays::TransportSource& source, const vec3& position, int rays = fan_size);
 
-/// The same for many places, on all threads.
+/// Looks around from many places, on all threads.
 std::vector<Site> look_around(const rays::TransportSource& source, std::span<const vec3> positions, int rays,
                               const Control& control);
 

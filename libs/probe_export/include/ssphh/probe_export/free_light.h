@@ -20,9 +20,9 @@ class FreeLight {
   FreeLight(const probes::ProbeSet& set, const rays::TransportSource& source, probes::ProbeLight light);
   FreeLight(const probes::ProbeSet&, const rays::TransportSource&&, probes::ProbeLight) = delete;
 
-  /// Of all directions: the lookup is asked for the irradiance of 28 normals, and its light projected to
-  /// degree 2 (exact where it is of degree 4, as a blend of probes is). Records and fitted weights belong to
-  /// surfaces, and are not asked. Safe to call from several threads.
+  /// Light from all directions: the lookup is asked for the irradiance of 28 normals, and its light projected
+  /// to degree 2 (exact where it is of degree 4, as a blend of probes is). Records and fitted weights belong
+  /// to surfaces, and are not asked. Safe to call from several threads.
   LightAt at(const vec3& place) const;
   /// Irradiance [W/m²] of one normal. As LightAt::seen, `seen` tells whether to believe it.
   vec3 irradiance(const vec3& place, const vec3& normal, bool& seen) const;

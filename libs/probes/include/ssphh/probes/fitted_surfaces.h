@@ -13,7 +13,7 @@ struct FittedSurfaces {
   bool empty() const { return surfaces.empty(); }
 };
 
-/// As prepare_surfaces, for the points that have weights.
+/// Prepares, as prepare_surfaces() does, the points that have weights.
 FittedSurfaces prepare_fitted(const scene::Scene& scene, float time, const FittedPoints& fitted,
                               const SeesProbe& sees, const Control& control = {});
 

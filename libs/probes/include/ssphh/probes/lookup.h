@@ -43,7 +43,7 @@ int irradiance_degree(const LookupParams& params, int set_degree);
 /// `neighbor` or `sum` without a hierarchy, for groups that were not merged, and for places and functions
 /// that are not finite or not of the set's degree.
 std::vector<sh::RadianceSh> surface_light(const ProbeSet& set, const LookupParams& params);
-/// The same in the memory of `light`.
+/// Finds it in the memory that `light` has.
 void surface_light(const ProbeSet& set, const LookupParams& params, std::vector<sh::RadianceSh>& light);
 
 /// Both are safe to call from several threads, never return a negative or non-finite number for finite input,

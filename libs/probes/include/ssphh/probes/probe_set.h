@@ -188,7 +188,7 @@ std::vector<std::string> mirrored_groups(const ProbeSet& set);
 /// others have records, but for mirrors, and still surfaces without a record half of it (still_share_of_sky).
 /// Empty: there are no such groups.
 std::vector<sh::RadianceSh> light_beside_records(const ProbeSet& set);
-/// The same in the memory of `light`.
+/// Finds it in the memory that `light` has.
 void light_beside_records(const ProbeSet& set, std::vector<sh::RadianceSh>& light);
 
 /// Number of edges stored in the set.

@@ -30,7 +30,7 @@ struct WeightParams {
   /// None: the best by measurement (docs/methods/transport-results.md) of what is given: `surface` where
   /// there are records, `fitted` where points have weights, else `fallback`.
   std::optional<WeightMethod> method;
-  /// Of `fitted` and `surface`, for what moves and where no point is near.
+  /// What stands in for `fitted` and `surface` where no point is near, and for what moves.
   WeightMethod fallback = WeightMethod::mls;
   int nearest = blended_probes;  ///< distance: so many visible probes, 1..16
   float spacing = 0;             ///< metres between probes; 0: the median distance to the nearest neighbour

@@ -32,7 +32,7 @@ class PosedWorld {
   bool visible(const vec3& a, const vec3& b) const { return !occluded({a, b - a, 1}); }
   /// Whether there is no glass either that dims light on its way.
   bool joined(const vec3& a, const vec3& b) const;
-  /// Of all parts; empty for a scene without triangles.
+  /// The box around all parts as posed; empty for a scene without triangles.
   const scene::Bounds& bounds() const { return bounds_; }
 
  private:

@@ -119,7 +119,7 @@ class IndirectLight {
   virtual vec3 irradiance(const SurfacePoint& at) const = 0;
   /// Names of the light groups whose direct light is in what this gives: a picture leaves theirs out.
   virtual std::vector<std::string> direct_groups() const { return {}; }
-  /// Those of them whose environment is not in glossy(): mirrors show it itself.
+  /// Names of those direct_groups() whose environment is not in glossy(): mirrors show it itself.
   virtual std::vector<std::string> mirrored_groups() const { return {}; }
   /// Radiance [W sr⁻¹ m⁻²] for a glossy lobe around the unit direction r; `roughness` is perceptual, 0..1.
   virtual vec3 glossy(const SurfacePoint& at, const vec3& r, float roughness) const = 0;

@@ -44,8 +44,8 @@ struct RayHit {
 struct MirroredRay {
   std::uint32_t of = 0;  ///< index of the ray
   RayQuery ray;          ///< from the sheet on; without end
-  /// Of the light that comes along it, glass on its own way left out, as much as arrives at the origin of the
-  /// ray that it was.
+  /// The share of the light along it, glass on its own way left out, that arrives at the origin of the ray
+  /// that it was.
   vec3 share{0};
 };
 

@@ -119,7 +119,7 @@ class Renderer {
   /// renderer's, until its next frame. Leaves OpenGL's state as it was (gl::SavedState). Throws Error for
   /// numbers of no texture, textures of several sizes and matrices of no camera.
   const gl::Texture& draw_indirect(const GBuffer& gbuffer, const FrameSettings& settings = {});
-  /// Of the last frame, whole once step() was false.
+  /// What the last frame took, which is whole once step() was false.
   const FrameStats& stats() const;
   /// The last frame as scene-linear radiance, before exposure and tone curve; row 0 on top.
   image::Image read_back() const;

@@ -10,7 +10,7 @@
 
 namespace ssphh::report {
 
-/// Of the repetitions.
+/// A value over the repetitions of a cell.
 struct Value {
   double mean = 0;
   double median = 0;

@@ -42,8 +42,8 @@ vec3 eval_intensity(const sh::IntensitySh& emission, const vec3& direction);
 /// The axes of a lamp that stands at `world`: unit vectors, whatever its scale.
 mat3 emission_axes(const mat4& world);
 
-/// Of the coefficients over all directions, not below 0: a lamp that shines alike everywhere gives as much
-/// light.
+/// The mean over all directions, not below 0: a lamp that shines alike everywhere gives as much light as
+/// these coefficients.
 vec3 mean_intensity(const sh::IntensitySh& emission);
 
 /// Shapes with names, of intensity 1 on their axis before they are cut off at a degree. `uniform`: the same

@@ -8,14 +8,14 @@
 
 namespace ssphh::scene {
 
-/// Of an SPHL of a scene, of a probe that is found a place, or of one that a session relights.
+/// The place of an SPHL of a scene, of a probe that is found one, or of one that a session relights.
 struct ProbePlace {
   std::string name;
   vec3 position{0};     ///< world, metres
   float radius = 0.1f;  ///< of the sphere from which it emits, and that VIZ looks at, metres
 };
 
-/// Those of whatever has a name, a position and a radius: probes, what place_probes() finds.
+/// The places of whatever has a name, a position and a radius: probes, what place_probes() finds.
 template <class Probes>
 std::vector<ProbePlace> places_of(const Probes& probes) {
   std::vector<ProbePlace> places;
@@ -23,7 +23,7 @@ std::vector<ProbePlace> places_of(const Probes& probes) {
   return places;
 }
 
-/// Of whatever has a position.
+/// The positions of whatever has one.
 template <class Probes>
 std::vector<vec3> positions_of(const Probes& probes) {
   std::vector<vec3> positions;

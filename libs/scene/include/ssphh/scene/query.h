@@ -16,7 +16,7 @@ namespace ssphh::scene {
 /// World matrix of every node with all animations at `time` seconds (clamped to each channel's keys).
 std::vector<mat4> world_matrices(const Scene& scene, float time = 0);
 
-/// The same of one node, without allocation: only what it hangs on is posed.
+/// World matrix of one node, without allocation: only what it hangs on is posed.
 mat4 world_matrix(const Scene& scene, int node, float time = 0);
 
 /// Time of the last key of any animation, or when the last emission that changes has ended or begins again
@@ -36,7 +36,7 @@ struct Bounds {
   void add(const vec3& p) { min = glm::min(min, p), max = glm::max(max, p); }
 };
 
-/// Of all instances' vertices in world space.
+/// The box around all instances' vertices, in world space.
 Bounds world_bounds(const Scene& scene, const std::vector<mat4>& world);
 
 /// Triangles counted once per instance.
@@ -65,13 +65,13 @@ struct CameraPose {
 };
 CameraPose camera_pose(const Scene& scene, const std::string& name, float time = 0);
 
-/// Of the enabled SPHLs.
+/// The places of the enabled SPHLs.
 std::vector<ProbePlace> sphl_places(const Scene& scene, float time = 0);
 
 /// Content hash of everything that can change a picture.
 Hash128 scene_hash(const Scene& scene);
-/// Of everything that decides the light in the scene: as scene_hash, but cameras, SPHLs and nodes on which
-/// nothing else stands do not count.
+/// Hash of everything that decides the light in the scene: as scene_hash, but cameras, SPHLs and nodes on
+/// which nothing else stands do not count.
 Hash128 light_hash(const Scene& scene);
 
 /// Throws Error naming the object for an index out of range or an array of wrong length: what nobody could

@@ -10,6 +10,15 @@
 
 namespace ssphh::shading {
 
+/// α, the square of a perceptual roughness, below which a lobe is not narrowed: a mirror is a lobe of ±0.06°,
+/// and no special case anywhere.
+inline constexpr float min_alpha = 1e-3f;
+/// Reflectance at grazing incidence, at most 1, is so many times the one at normal incidence: nothing real
+/// has an f0 below 0.02, so it means occlusion.
+inline constexpr float f90_per_f0 = 50;
+/// Nodes of the tabulated directional albedo of a specular lobe, in the cosine and in roughness.
+inline constexpr int albedo_table_size = 32;
+
 /// The material at one point, textures already looked up (see surface.h).
 struct BsdfParams {
   vec3 diffuse{0.8f};            ///< diffuse albedo: base colour × (1 − metallic)

@@ -62,7 +62,7 @@ class GlassFrom {
   BsdfValue eval(const vec3& wi) const;
   /// Empty where the direction drawn lies on the wrong side, or nothing goes anywhere.
   std::optional<GlassSample> sample(float u_lobe, const vec2& u) const;
-  /// The same of what is mirrored alone.
+  /// Samples what is mirrored alone.
   std::optional<GlassSample> sample_mirrored(const vec2& u) const;
   /// Mean over the channels of the light that sample() spreads, seen from wo: near enough to divide samples
   /// by.

@@ -17,7 +17,7 @@ class MeshView {
   MeshView(const vec3& position, const vec3& normal, const vec3& radiance, int group)
       : position_(position), normal_(normal), radiance_(radiance), group_(group) {}
 
-  /// Of a side that emits toward the point; at most max_triangles of them. World space.
+  /// Adds a triangle of a side that emits toward the point; at most max_triangles of them. World space.
   void add(const vec3& p0, const vec3& p1, const vec3& p2);
 
   /// [W/m²] on the receiver if nothing stood between (Lambert's formula for polygons).

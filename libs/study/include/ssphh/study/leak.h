@@ -14,8 +14,8 @@ struct LeakParams {
   /// A point is dark when its true indirect irradiance is less than this share of the mean …
   float dark_share = 1e-4f;
   float sigmas = 3;  ///< … even with so many standard deviations of the estimate on top.
-  /// Of the truth. The points found dark are traced again, with four times the samples and other paths, and
-  /// must stay dark: rare bright paths make light points look dark, and their variance with them.
+  /// How the truth is traced. The points found dark are traced again, with four times the samples and other
+  /// paths, and must stay dark: rare bright paths make light points look dark, and their variance with them.
   rays::PathParams path{.max_depth = rays::usual_max_depth, .passes = 1, .spp = 256, .seed = 0};
   double noise =
       0;           ///< that more paths are to bring the truth to, as converged_truth has it; 0: `path` alone

@@ -8,8 +8,8 @@
 
 namespace ssphh::study {
 
-/// Of one quantity, over points with looked-up irradiance e, truth t and the truth's variance v; ε keeps dark
-/// points from deciding.
+/// Errors of one quantity, over points with looked-up irradiance e, truth t and the truth's variance v; ε
+/// keeps dark points from deciding.
 struct RelativeError {
   double mean_truth = 0;     ///< [W/m²]
   double ratio = 0;          ///< Σ e / Σ t; NaN where the truth is dark everywhere
@@ -21,9 +21,9 @@ struct RelativeError {
   double relmse = 0;  ///< mean of ((e − t)² − v) / (t + ε)²: the noise is subtracted; may come out below 0
 };
 
-/// Of chromaticity c = rgb / (r + g + b), whatever the brightness: d = w Σ |c(e) − c(t)| over the channels
-/// with w = Σt / (Σt + 3ε); about 0 for the same colour and 2 for red instead of blue. Where nothing was
-/// looked up, c(e) is grey.
+/// Errors of chromaticity c = rgb / (r + g + b), whatever the brightness: d = w Σ |c(e) − c(t)| over the
+/// channels with w = Σt / (Σt + 3ε); about 0 for the same colour and 2 for red instead of blue. Where nothing
+/// was looked up, c(e) is grey.
 struct ChromaticityError {
   double mean = 0;  ///< of d; holds the truth's own noise
   double p95 = 0;   ///< of d: 95 % of the points are better

@@ -2,6 +2,7 @@
 /// Parameters and accumulated result of a progressive render: plain data.
 
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include <ssphh/core/enum_names.h>
@@ -58,6 +59,28 @@ struct RenderState {
   Hash128 key;  ///< of scene and parameters without `passes`: guards a resumed state; set by the first render
                 ///< if zero
 };
+
+/// An image of a RenderState, or, as `groups`, one for each light group: in the order of the state.
+enum class RenderLayer : std::uint8_t { color, direct, indirect, albedo, normal, depth, coverage, groups };
+constexpr auto enum_table(RenderLayer) {
+  using enum RenderLayer;
+  return std::to_array<EnumName<RenderLayer>>({{color, "color"},
+                                               {direct, "direct"},
+                                               {indirect, "indirect"},
+                                               {albedo, "albedo"},
+                                               {normal, "normal"},
+                                               {depth, "depth"},
+                                               {coverage, "coverage"},
+                                               {groups, "groups"}});
+}
+
+/// All layers, in their order.
+std::span<const RenderLayer> render_layers();
+/// The images of a layer: one, but of `groups` as many as the state keeps.
+std::span<image::Image> images_of(RenderState& state, RenderLayer layer);
+std::span<const image::Image> images_of(const RenderState& state, RenderLayer layer);
+/// Numbers of a pixel of that layer: 1 or 3.
+int channels_of(RenderLayer layer);
 
 /// The tile that `params` asks for, or that of the whole picture.
 Tile tile_of(const RenderParams& params);

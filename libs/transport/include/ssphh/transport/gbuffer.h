@@ -67,7 +67,7 @@ struct ProbeGBuffer {
   std::vector<vec3> positions;   ///< of the probes
   std::vector<vec3> directions;  ///< unit, the same for every probe; weight 4π / count each
   std::vector<PackedHit> hits;   ///< [probe · directions.size() + direction]
-  /// Of each hit, RayHit::through packed as an albedo; empty where no ray meets glass. Emission is kept as
+  /// RayHit::through of each hit, packed as an albedo; empty where no ray meets glass. Emission is kept as
   /// seen through it.
   std::vector<std::uint32_t> through;
   std::vector<MirroredHit> mirrored;  ///< by owner

@@ -78,7 +78,7 @@ class TransportNetwork {
   /// Bytes that prepare_poses keeps.
   std::size_t pose_bytes() const;
 
-  /// As resolved: surfel_size is never 0.
+  /// The parameters as resolved: surfel_size is never 0.
   const TransportParams& params() const;
   const ProbeGBuffer& gbuffer() const;
   const SurfelSet& surfels() const;
@@ -89,10 +89,10 @@ class TransportNetwork {
   std::size_t surfel_of(std::size_t patch) const {
     return patch / static_cast<std::size_t>(params().samples);
   }
-  /// Of each patch.
+  /// Reflectance of each patch.
   const std::vector<vec3>& albedo() const;
 
-  /// Of each patch, where its direct light is found. World space, as posed.
+  /// Where the direct light of each patch is found. World space, as posed.
   const std::vector<rays::SurfacePoint>& samples() const;
   const std::vector<std::uint8_t>& sample_used() const;
   /// False for the padding of a surfel with fewer samples: never in use.
@@ -106,7 +106,7 @@ class TransportNetwork {
   const std::vector<SeenPatch>& seen() const;
   /// By owner.
   const std::vector<MirroredPatch>& seen_mirrored() const;
-  /// Metres to what each probe ray sees; infinite: nothing.
+  /// Distance [m] to what each probe ray sees; infinite where it sees nothing.
   const std::vector<float>& seen_distance() const;
   /// Palette index of the emission that each probe ray sees; empty when no surface emits.
   const std::vector<std::uint16_t>& seen_emission() const;

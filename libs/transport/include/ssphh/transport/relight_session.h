@@ -68,7 +68,7 @@ struct RelightReport {
   double total_ms() const { return pose_ms + direct_ms + solve_ms + project_ms; }
 };
 
-/// Of update(): as long as it takes.
+/// A budget of update(): as long as it takes.
 inline constexpr double unlimited_ms = std::numeric_limits<double>::infinity();
 
 /// Direct light of a light group that records keep (GatherParams::baked).
@@ -145,12 +145,12 @@ class RelightSession {
   /// Keeps records of light as asked for, from now on and of the last update(); 0 points: none. Throws Error
   /// as SurfaceGather does, and Cancelled.
   void keep_records(const GatherParams& params, const Control& control = {});
-  /// The same at these points, as they stand in the pose of now.
+  /// Keeps records at these points, as they stand in the pose of now.
   void keep_records_at(std::vector<rays::SurfacePoint> points, const GatherParams& params,
                        const Control& control = {});
   /// Where the light of surfaces that stand still is kept; null: nowhere.
   const SurfaceGather* gather() const;
-  /// Of each of the gather's points: reflected light after the last update().
+  /// Reflected light of each of the gather's points after the last update().
   const std::vector<probes::RecordLight>& record_light() const;
   /// Groups whose direct light is kept beside it, and what is kept of the i-th of them. Found when records
   /// are: updates do not find it anew.
@@ -168,7 +168,7 @@ class RelightSession {
 
   /// Indirect irradiance at each surfel; with bounce empty unless records are kept.
   const std::vector<Irradiance4>& surfel_irradiance() const;
-  /// Of each patch: straight from emitters, and mirrored by panes.
+  /// Irradiance of each patch straight from emitters, and mirrored by panes.
   const std::vector<Irradiance4>& patch_direct() const;
   /// E of each patch, direct and indirect.
   std::vector<Irradiance4> patch_irradiance() const;

@@ -76,7 +76,7 @@ class Solver {
   };
   bool finished() const { return report_.converged || report_.iterations >= problem_.params.max_iterations; }
   void bounce();
-  /// Of a row's patches.
+  /// Sets the radiosity of a row's patches.
   void set_radiosity(std::size_t row, const Irradiance4& indirect, std::vector<Irradiance4>& radiosity) const;
 
   Problem problem_;

@@ -33,7 +33,7 @@ class SurfaceGather {
   /// gather made in this pose: to the bit without `direct`, else within noise, for doors decide what is seen
   /// of what is bright.
   void update_pose();
-  /// The same of the rays [begin, end) of moving_rays().
+  /// Looks again along the rays [begin, end) of moving_rays() alone.
   void update_pose(std::size_t begin, std::size_t end);
   std::size_t moving_rays() const { return moving_.size(); }
 
@@ -46,8 +46,8 @@ class SurfaceGather {
   const std::vector<float>& openness() const { return openness_; }
   /// Light of each point, when each patch gets `irradiance`, direct and reflected.
   void light(std::span<const Irradiance4> irradiance, std::vector<probes::RecordLight>& out) const;
-  /// The same of the points [begin, end), by the radiosity of each patch, albedo times irradiance; `out` has
-  /// room for each of the points.
+  /// Light of the points [begin, end) alone, by the radiosity of each patch, albedo times irradiance; `out`
+  /// has room for each of the points.
   void light(std::span<const vec4> radiosity, std::size_t begin, std::size_t end,
              std::span<probes::RecordLight> out) const;
   std::size_t bytes() const;

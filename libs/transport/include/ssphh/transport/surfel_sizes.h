@@ -14,14 +14,14 @@ class SurfelSizes {
  public:
   static constexpr int most_level = 15;  ///< doublings: surfels of a millimetre grow to 33 m at most
 
-  /// The same `size` [m] everywhere.
+  /// Surfels are of one `size` [m] everywhere.
   explicit SurfelSizes(float size) : finest_(size) {}
   /// `finest` [m], or the largest of its doublings that is no more than `share` of the local distance: that
   /// of the nearest probe, or of this probe's nearest neighbour where that is more.
   SurfelSizes(float finest, std::span<const vec3> probes, float share);
 
   float finest() const { return finest_; }
-  /// Metres.
+  /// The size of a level [m].
   float size(int level) const { return finest_ * static_cast<float>(1 << level); }
   /// Doublings of the finest size at a place, 0..most_level.
   int level(const vec3& position) const;

@@ -28,7 +28,7 @@ struct Surfel {
 };
 
 inline constexpr int no_surfel = -1;
-/// Likewise, of what rays meet: a patch of a surfel (network.h).
+/// What rays meet where they meet no patch of a surfel (network.h).
 inline constexpr int no_patch = -1;
 
 class SurfelSet {
@@ -41,11 +41,11 @@ class SurfelSet {
   SurfelSet(const rays::TransportSource&&, SurfelSizes, std::vector<int> = {}) = delete;  // it would be gone
   SurfelSet(const rays::TransportSource&&, float) = delete;
 
-  /// Of the finest voxels [m].
+  /// The edge of the finest voxels [m].
   float size() const { return sizes_.finest(); }
-  /// Of the largest voxels that hold a surfel [m].
+  /// The edge of the largest voxels that hold a surfel [m].
   float coarsest() const;
-  /// Of a part's point: doublings of the finest voxels' edge.
+  /// The level of a part's point: doublings of the finest voxels' edge.
   int level(int part, const vec3& position) const;
   float size(int level) const { return sizes_.size(level); }
   const std::vector<Surfel>& surfels() const { return surfels_; }
@@ -72,7 +72,7 @@ class SurfelSet {
   /// Surfels of the point's own cell, then of those around it (of the next finer and coarser voxels, too),
   /// nearest representative first: the first of them that fit into `out`. In the part's frame.
   std::span<const int> candidates(int part, const rays::SurfacePoint& point, std::span<int> out) const;
-  /// Those of its own cell alone, in the order they were founded.
+  /// Surfels of the point's own cell alone, in the order they were founded.
   std::span<const int> cell(int part, const rays::SurfacePoint& point) const;
 
   /// Segment between two surface points, lifted off the surface as voxels of this level need.

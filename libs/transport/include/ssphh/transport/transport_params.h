@@ -12,7 +12,7 @@ namespace ssphh::transport {
 /// Irradiance with one float of padding: 16 bytes, one load.
 using Irradiance4 = vec4;
 
-/// Of a TransportNetwork (network.h).
+/// What a TransportNetwork (network.h) may be told.
 struct TransportParams {
   int directions = 384;  ///< rays per probe
   /// Edge of a surfel [m]; 0: the scene's radius over `surfels_per_radius`, but at most the largest of these:
@@ -29,7 +29,7 @@ struct TransportParams {
   friend bool operator==(const TransportParams&, const TransportParams&) = default;
 };
 
-/// Of a Solver (solve.h).
+/// What a Solver (solve.h) may be told.
 struct SolveParams {
   float tolerance = 1e-3f;  ///< largest residual of a surfel, relative to its E + 1e-3 · (the largest E)
   int max_iterations = 300;
@@ -40,7 +40,7 @@ struct SolveReport {
   bool converged = true;
 };
 
-/// Of a BounceOperator (bounce.h), B.
+/// What a BounceOperator (bounce.h), B, may be told.
 struct BounceParams {
   probes::WeightParams weights{.method = probes::WeightMethod::trilinear};
   int irradiance_degree = 2;  ///< bands of the probes' irradiance that surfaces look up
@@ -53,7 +53,7 @@ struct BounceParams {
 inline constexpr int usual_records = 16384;
 inline constexpr std::size_t most_records = std::size_t{1} << 16;
 
-/// Of a SurfaceGather (surface_gather.h).
+/// What a SurfaceGather (surface_gather.h) may be told.
 struct GatherParams {
   int points = 0;   ///< of gather_where_needed(): 1..65536; 0: none
   int rays = 1024;  ///< per point, 4..65536

@@ -19,8 +19,12 @@ struct Cone {
 /// cosine, the cell's solid angle, and the weight ∫ cos θ dω = π/count.
 std::vector<Cone> hemisphere_cones(int count);
 
-/// Divides the cap within the angle whose cosine is `cosine` into cells of the same solid angle, weights 1/n:
-/// one cone, or several where one would be wider than 30° to each side.
+/// A cap within an angle of this cosine, 30°, or a smaller one is one cone …
+inline constexpr double one_cone_cosine = 0.8660254037844386;
+/// … and a wider one so many: one in the middle and a ring around it.
+inline constexpr int cap_cone_count = 7;
+
+/// Divides the cap within the angle whose cosine is `cosine` into cells of the same solid angle, weights 1/n.
 std::vector<Cone> cap_cones(float cosine);
 
 /// Cosine of the cap over which uniform radiance has the mean cosine of a glossy lobe of this perceptual

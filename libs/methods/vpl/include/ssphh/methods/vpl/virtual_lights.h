@@ -26,12 +26,19 @@ constexpr auto enum_table(VplKind) {
 
 struct VplParams {
   VplKind kind = VplKind::point;
-  /// Of points: no light counts for more than one straight ahead at this distance [m]; 0: unbounded.
+  /// No point light counts for more than one straight ahead at this distance [m]; 0: unbounded.
   float least_distance = 0;
 };
 
 /// Exponent of the sharpest lobe cosⁿ that asks virtual lights: sharper ones would show the single lights.
 inline constexpr float sharpest_lobe = 100;
+/// Of point lights those do not count of which a lobe leaves less than this share.
+inline constexpr float least_of_lobe = 1e-3f;
+
+/// A spherical light is asked in so many directions, in rings …
+inline constexpr int sphere_rings = 4, sphere_spokes = 8;
+/// … unless the square of its distance is so many times that of its radius: from afar it is a point.
+inline constexpr float sphere_far2 = 64;
 
 /// At most `most` lights of the same power in all: clusters of neighbours that face about the same way, each
 /// at the place of one of its lights, which is chosen with probability ∝ power (Walter et al., Lightcuts,

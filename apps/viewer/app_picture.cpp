@@ -1,0 +1,212 @@
+// The picture: drawn piece by piece, and with it what lies over and beside it.
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <ssphh/image/exposure.h>
+#include <ssphh/rays/posed_world.h>
+
+#include "app.h"
+#include "overlay.h"
+
+namespace ssphh::viewer {
+
+/// A software renderer takes a second for a large picture: while something moves it gets a small one.
+void App::resize_picture() {
+  const bool moving = drag.changes_picture() || settings.play || path_plays;
+  if (!moving) screen_.coarse = false;
+  if (moving && last_stats.cpu_ms > 80) screen_.coarse = true;
+  const float scale = settings.scale * (screen_.coarse ? 0.4f : 1.0f);
+  picture.resize(std::max(1, static_cast<int>(std::lround(viewport.width * scale))),
+                 std::max(1, static_cast<int>(std::lround(viewport.height * scale))));
+}
+
+/// Whether the picture on the screen, or the one that is being drawn, is not that of now.
+bool App::picture_stale() const {
+  const bool changed = !screen_.drawn || !(screen_.drawn->view == view) ||
+                       !same_picture(screen_.drawn->settings, settings) ||
+                       (settings.balls && !(screen_.drawn->selection == selection)) ||
+                       needs_truth(screen_.drawn->settings) != needs_truth(settings) ||
+                       screen_.drawn->width != picture.width() || screen_.drawn->height != picture.height();
+  const bool linear_missing = wants_linear() && picture.linear().empty();
+  return changed || screen_.scene_dirty || screen_.waiting_maps > 0 || linear_missing;
+}
+
+/// A picture that is begun is drawn to its end, however often the view changes meanwhile, so that something
+/// moves; one of those for smooth edges is dropped.
+void App::draw_scene() {
+  if (!screen_.awaits_picture()) {
+    resize_picture();
+    apply_edits();
+    update_light();
+    if (picture_stale()) {
+      begin_picture();
+    } else if (!screen_.drawing && smooths() && picture.averaged() < smooth_pictures) {
+      realtime::FrameSettings moved = frame_settings(settings);
+      moved.shift = place_in_pixel(picture.averaged());
+      picture.begin(*renderer_, pose_of(view), moved);
+      screen_.drawing = Drawing{true, 0};
+    }
+  }
+  if (screen_.drawing) continue_picture();
+  if (screen_.awaits_picture()) return;
+  draw_outline();
+  update_truth();
+  update_readings();
+}
+
+void App::update_readings() {
+  const image::Image& linear = picture.linear();
+  if (!settings.histogram && !settings.false_color) return histogram.reset(), truth_histogram.reset();
+  if (linear.empty()) return;
+  const bool traced = needs_truth(settings) && reference.image().color;
+  const float exposure = shown_tone(settings).exposure;
+  const std::tuple now{screen_.pictures, traced ? reference.image().passes : 0, exposure,
+                       settings.false_color};
+  if (screen_.readings == now) return;
+  screen_.readings = now;
+  histogram = stop_histogram(linear, exposure);
+  truth_histogram.reset();
+  if (traced) truth_histogram = stop_histogram(*reference.image().color, exposure);
+  if (settings.false_color) picture.take_false_color(false_color(linear, exposure));
+  redraw();
+}
+
+void App::begin_picture() {
+  const bool light_path_changed = screen_.scene_dirty || !screen_.drawn || !(screen_.drawn->view == view) ||
+                                  screen_.drawn->width != picture.width() ||
+                                  screen_.drawn->height != picture.height();
+  if (light_path_changed) {
+    picture.forget_truth();
+    reference.clear();
+    last_change_ = window.seconds();
+  }
+  if (!wants_linear()) picture.forget_linear();
+  picture.begin(*renderer_, pose_of(view), frame_settings(settings));
+  screen_.drawing = Drawing{false, 0};
+  screen_.drawn = {view, settings, selection, picture.width(), picture.height()};
+  screen_.scene_dirty = false;
+}
+
+/// As many pieces as leave time for the interface, at least one; where nobody sits there, all.
+void App::continue_picture() {
+  const double start = window.seconds(), patience = by_hand() ? 0.02 : 1e30;
+  const bool linear = !screen_.drawing->smooth && (wants_linear() || needs_truth(screen_.drawn->settings));
+  bool more = true;
+  while ((more = picture.step(*renderer_, linear)) && window.seconds() - start < patience) {
+  }
+  screen_.drawing->seconds += window.seconds() - start;
+  if (!more) finish_picture(*std::exchange(screen_.drawing, std::nullopt));
+  redraw();
+}
+
+void App::finish_picture(const Drawing& done) {
+  draw_balls();
+  ++screen_.pictures;
+  if (done.smooth) return picture.average();
+  last_stats = renderer_->stats();
+  screen_.waiting_maps = last_stats.shadow_maps_waiting;
+  times.add("frame", 1e3 * done.seconds);
+  for (const realtime::PassTime& pass : last_stats.passes)
+    times.add(pass.name, std::max(pass.cpu_ms, pass.gpu_ms));
+  if (screen_.drawn->settings.antialias && !needs_truth(screen_.drawn->settings)) picture.average();
+  screen_.truth_dirty = true;
+  // Not of those that follow for the mean: a moved one may stand on the other side of a quarter.
+  screen_.suits = suitable_exposure();
+  if (follows_exposure) follow_exposure();
+}
+
+/// Into the picture that is whole now, as it was when that was begun.
+void App::draw_balls() {
+  const Settings& shown = screen_.drawn->settings;
+  if (!shown.balls || light.empty()) return;
+  if (screen_.balls_dirty || screen_.balls != shown.ball) balls_->update(light.set(), shown.ball);
+  screen_.balls_dirty = false;
+  screen_.balls = shown.ball;
+  const Selection& chosen = screen_.drawn->selection;
+  BallsGl::Look look;
+  look.view = screen_.drawn->view;
+  look.radius = shown.ball_size > 0 ? shown.ball_size : default_ball_size(light.set());
+  look.lobes = shown.lobes;
+  look.tone = shown_tone(shown);
+  look.selected = chosen.is(Kind::sphl) ? probe_of_sphl(*this, chosen.index) : -1;
+  balls_->draw(light.set(), look, {renderer_->depth_texture(), renderer_->view_projection()},
+               picture.framebuffer(), picture.width(), picture.height());
+}
+
+/// Of the frame that was drawn last.
+std::optional<float> App::suitable_exposure() const {
+  // Of all the light: views of its parts are compared with it.
+  if (!settings.auto_exposure || settings.debug != DebugView::none) return {};
+  const image::Image some = renderer_->read_some(160, 90);
+  if (std::ranges::none_of(some.pixels, [](float x) { return x > 0; })) return {};
+  return image::automatic_exposure(some, settings.curve);
+}
+
+bool App::show_exposure(float ev) {
+  return std::exchange(settings.exposure, ev) != ev;
+}
+
+bool App::follow_exposure() {
+  return screen_.suits && show_exposure(exposure_.follow(*screen_.suits));
+}
+
+bool App::take_exposure() {
+  return screen_.suits && show_exposure(exposure_.take(*screen_.suits));
+}
+
+/// Which probes the eye sees: their names are shown, the others' are not.
+void App::update_visible() {
+  if (light.empty()) return screen_.visible.clear();
+  const std::vector<probes::Probe>& probes = light.set().probes;
+  const bool wanted = settings.names || settings.graph || place_mode;
+  if (!wanted) {
+    screen_.visible_from.reset();
+    return screen_.visible.assign(probes.size(), 1);
+  }
+  if (screen_.visible_from == std::pair(view, document.time)) return;
+  screen_.visible_from = {view, document.time};
+  std::vector<rays::RayQuery> to_eye;
+  for (const probes::Probe& probe : probes) to_eye.push_back({probe.position, view.eye - probe.position, 1});
+  std::vector<std::uint8_t> blocked(probes.size());
+  rays::PosedWorld(*picking_, document.time).occluded(to_eye, blocked);
+  screen_.visible.clear();
+  for (const std::uint8_t b : blocked) screen_.visible.push_back(b ? 0 : 1);
+}
+
+/// Ground truth starts once the picture has been still for a moment, and follows every change.
+void App::update_truth() {
+  if (!needs_truth(settings)) {
+    if (reference.status().running) reference.stop();
+    return;
+  }
+  const auto asked = std::make_pair(settings.against, settings.truth_depth);
+  if (asked != screen_.truth_asked) {
+    picture.forget_truth();
+    reference.clear();
+    screen_.truth_asked = asked;
+  }
+  const bool started = reference.status().running || reference.image().passes > 0;
+  if (!started) {
+    redraw();
+    if (window.seconds() - last_change_ < 0.25 || applied_.light_stale) return;
+    ReferenceParams params;
+    params.scene = std::make_shared<const scene::Scene>(document.edited());
+    params.geometry = geometry_;
+    params.time = document.time;
+    params.camera = pose_of(view);
+    params.width = picture.width(), params.height = picture.height();
+    params.method = settings.against;
+    params.max_depth = settings.truth_depth;
+    params.passes = settings.truth_passes;
+    reference.start(params);
+    return;
+  }
+  if (screen_.truth_dirty || screen_.truth_settings != settings)
+    picture.update_truth(reference.image(), settings);
+  screen_.truth_dirty = false;
+  screen_.truth_settings = settings;
+}
+
+}  // namespace ssphh::viewer
