@@ -8,16 +8,21 @@
 
 namespace ssphh::benchmarks {
 
-/// Multiply-adds per second (counting each lane) of one core: twelve independent chains of eight lanes in
-/// registers, enough to hide the latency of two units. Best of several runs, measured once.
+/// Multiply-adds per second (counting each lane) of one core, with the registers that this is compiled for:
+/// twelve independent chains, enough to hide the latency of two units. Best of several runs, measured once.
 inline double peak_fma_rate() {
-  using float8 = float __attribute__((vector_size(32)));
+#if defined(__AVX__)
+  constexpr int lanes = 8;
+#else
+  constexpr int lanes = 4;
+#endif
+  using Floats = float __attribute__((vector_size(lanes * sizeof(float))));
   static const double rate = [] {
     constexpr int rounds = 200000, chains = 12;
     double best = 0;
     for (int run = 0; run < 20; ++run) {
-      float8 a0{}, a1{}, a2{}, a3{}, a4{}, a5{}, a6{}, a7{}, a8{}, a9{}, a10{}, a11{};
-      float8 factor{}, term{};
+      Floats a0{}, a1{}, a2{}, a3{}, a4{}, a5{}, a6{}, a7{}, a8{}, a9{}, a10{}, a11{};
+      Floats factor{}, term{};
       factor += 0.999f, term += 0.001f;
       benchmark::DoNotOptimize(factor);
       benchmark::DoNotOptimize(term);
@@ -32,9 +37,9 @@ inline double peak_fma_rate() {
         asm volatile("" : "+x"(a6), "+x"(a7), "+x"(a8), "+x"(a9), "+x"(a10), "+x"(a11));
       }
       const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-      float8 sum = a0 + a1 + a2 + a3 + a4 + a5 + a6 + a7 + a8 + a9 + a10 + a11;
+      Floats sum = a0 + a1 + a2 + a3 + a4 + a5 + a6 + a7 + a8 + a9 + a10 + a11;
       benchmark::DoNotOptimize(sum);
-      best = std::max(best, rounds * double{chains} * 8 / seconds.count());
+      best = std::max(best, rounds * double{chains} * lanes / seconds.count());
     }
     return best;
   }();

@@ -1,9 +1,16 @@
 # Compile options shared by every target of this project; not exported to users of the installed package. What is in C is shipped to
 # machines that nobody knows: it takes the compiler's own architecture.
+if(SSPHH_ARCH)
+  set(architecture $<$<COMPILE_LANGUAGE:CXX>:-march=${SSPHH_ARCH}>)
+else()
+  set(vectors_of_any_width $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>)
+  set(architecture -ffp-contract=off)  # where others have fused multiply-adds, bits are these, too
+endif()
 add_library(ssphh_compile_options INTERFACE)
 target_compile_options(ssphh_compile_options INTERFACE
   -Wall -Wextra -Wpedantic $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor> $<$<COMPILE_LANGUAGE:CXX>:-Wold-style-cast>
-  $<$<COMPILE_LANGUAGE:CXX>:-Woverloaded-virtual> -Werror=return-type $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> -fno-math-errno $<$<COMPILE_LANGUAGE:CXX>:-march=${SSPHH_ARCH}>)
+  $<$<COMPILE_LANGUAGE:CXX>:-Woverloaded-virtual> -Werror=return-type $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> ${vectors_of_any_width}
+  -fno-math-errno ${architecture})
 if(NOT SSPHH_UNITY)
   target_compile_options(ssphh_compile_options INTERFACE -Wshadow)
 elseif(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")

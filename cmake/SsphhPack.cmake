@@ -1,5 +1,5 @@
-# Packages of a build for /usr (scripts/package): ssphh-VERSION-linux-ARCH.tar.gz with all of it, and for Debian three:
-# ssphh (the tool), libssphh-dev (the library), python3-ssphh. Their shared libraries are asked of dpkg-shlibdeps.
+# Packages of a build for /usr (scripts/package): ssphh-VERSION-linux-ARCH.tar.gz with all of it, and for Debian four:
+# ssphh (the tool), libssphh0.1 (the shared library), libssphh-dev (what is compiled against), python3-ssphh. Their shared libraries are asked of dpkg-shlibdeps.
 set(CPACK_PACKAGE_VENDOR ssphh)
 set(CPACK_PACKAGE_CONTACT "ssphh <ssphh@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
@@ -10,7 +10,8 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_THREADS 2)
 string(TOLOWER ${CMAKE_SYSTEM_NAME} system)
 set(CPACK_SYSTEM_NAME ${system}-${CMAKE_SYSTEM_PROCESSOR})
-set(CPACK_COMPONENTS_ALL tool library)
+set(CPACK_COMPONENTS_ALL tool library shared)
+set(shared_package libssphh${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 if(TARGET ssphh_python)
   list(APPEND CPACK_COMPONENTS_ALL python)
   # The module is for one minor version of Python
@@ -29,13 +30,16 @@ set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_TOOL_PACKAGE_NAME ssphh)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libssphh-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_SHARED_PACKAGE_NAME ${shared_package})
+set(CPACK_DEBIAN_SHARED_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-ssphh)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_COMPONENT_TOOL_DESCRIPTION "The tool ssphh: bakes, renders, views and compares light probes")
+set(CPACK_COMPONENT_SHARED_DESCRIPTION "Library libssphh.so for programs that light scenes with probes")
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "Headers, static libraries, run-time library and shaders for engines")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The package ssphh of Python")
 # A component asks for what it links alone (find_package, pkg-config); `sh` and all above it for these.
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "libfmt-dev, libglm-dev")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "${shared_package} (= ${PROJECT_VERSION}), libfmt-dev, libglm-dev")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS
   "libspdlog-dev, libtbb-dev, libxxhash-dev, nlohmann-json3-dev, libopenexr-dev, libimath-dev, libspng-dev, libjpeg62-turbo-dev, libwebp-dev, libmeshoptimizer-dev, libdraco-dev, libembree-dev, zlib1g-dev, libepoxy-dev, libegl-dev, libyaml-cpp-dev, libzmq3-dev, libsqlite3-dev, prometheus-cpp-dev")
 # What draws where there is no graphics card

@@ -1,4 +1,4 @@
-# ssphh-<module>.pc for each module in C++ and ssphh.pc for all of them, for builds without CMake. Static libraries carry what they
+# ssphh-<module>.pc for each module in C++, ssphh.pc for all of them and ssphh-shared.pc for libssphh.so, for builds without CMake. Static libraries carry what they
 # link; the folder can be moved.
 include_guard()
 set(pc_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
@@ -62,4 +62,7 @@ foreach(module IN LISTS SSPHH_MODULES)
   string(APPEND ssphh_pc_all " ssphh-${module}")
 endforeach()
 ssphh_pc(ssphh "${PROJECT_DESCRIPTION} (C++20)" "${ssphh_pc_all}" "")
+if(TARGET ssphh_shared)
+  ssphh_pc(ssphh-shared "${PROJECT_DESCRIPTION} (C++20), as one shared library" " fmt glm" " -lssphh")
+endif()
 ssphh_pc(ssphh-runtime "Baked light of ssphh in a shipped program, without rays (C)" "" " -lssphh_runtime -lm")

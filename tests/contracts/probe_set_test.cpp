@@ -232,6 +232,20 @@ std::vector<Contract> of_sets() {
                   [](ProbeSet& set) { set.probes[1].edges[0].from = 3; }, write, {"/probes/1/edges/0/from"}),
       refuses("ProbesFromBinary", "OfNoBytes", [] { probes::probes_from_binary({}, "x.sphl"); }, {"x.sphl"}),
       refuses("ReadProbeFile", "WithAnUnknownEnding", [] { probes::read_probe_file("x.png"); }, {"x.png"}),
+      gives("DarkSet", "OfPlacesWithoutAScene",
+            [] {
+              const ProbeSet set = probes::dark_set(std::vector<scene::ProbePlace>{{"a", vec3(1, 2, 3)}}, 3);
+              ASSERT_EQ(set.probes.size(), 1u);
+              EXPECT_EQ(set.probes[0].name, "a");
+              EXPECT_EQ(set.probes[0].position, vec3(1, 2, 3));
+              EXPECT_EQ(set.degree, 3);
+            }),
+      refuses("DarkSet", "OfDegreeMinusOne", [] { probes::dark_set({}, -1); }, {"degree -1", "0..10"}),
+      refuses("DarkSet", "OfAPlaceWithoutARadius",
+              [] {
+                probes::dark_set(std::vector<scene::ProbePlace>{{"flat", vec3(0), 0}}, 2);
+              },
+              {"flat", "radius"}),
       refuses("InitFromScene", "OfDegreeEleven",
               [] { place::init_from_scene(scene::make_builtin("box"), 11); }, {"degree 11", "0..10"}),
       refuses("InitFromScene", "WithoutSphls", [] { place::init_from_scene({}, 2); }, {"no enabled SPHL"}),

@@ -246,6 +246,34 @@ TEST_F(EnginesGBuffer, FollowsTheRenderersLight) {
   EXPECT_EQ(light(frame), before);
 }
 
+/// Normal maps: light by the shading normal, sight of probes against the plane that was drawn.
+TEST_F(EnginesGBuffer, TakesAGeometricNormalBesideTheShadingOne) {
+  EnginesFrame frame = usual_frame();
+  std::ranges::fill(frame.moving, 1.0f);  // so that probes light it
+  frame.textures[4].upload(std::as_bytes(std::span(frame.moving)));
+  const auto upload = [](const std::vector<vec4>& normals) {
+    gl::Texture texture(gl::Format::rgba32f, engine_size.width, engine_size.height);
+    texture.upload(std::as_bytes(std::span(normals)));
+    return texture;
+  };
+  std::vector<vec4> tilted, turned;
+  for (rays::SurfacePoint& at : frame.points) {
+    turned.emplace_back(-at.normal, 0);
+    at.moves = true;
+    at.normal = glm::normalize(at.normal + vec3(0.3f, -0.2f, 0.25f));
+    tilted.emplace_back(at.normal, 0);
+  }
+  const gl::Texture shading = upload(tilted), behind = upload(turned);
+  const std::vector<vec4> flat = light(frame);
+  frame.gbuffer.geometric_normal = frame.gbuffer.normal;
+  EXPECT_EQ(light(frame), flat);
+  frame.gbuffer.geometric_normal = behind.id();
+  EXPECT_FALSE(light(frame) == flat) << "walls hide probes that stand behind them";
+  frame.gbuffer.geometric_normal = frame.gbuffer.normal;
+  frame.gbuffer.normal = shading.id();
+  EXPECT_LT(compare(frame, *lit_rooms().lookup, light(frame)).mean_difference, 0.05);
+}
+
 TEST_F(EnginesGBuffer, RefusalsSayWhatIsWrong) {
   const EnginesFrame frame = usual_frame();
   const auto refused = [&](const auto& change) {
@@ -260,6 +288,8 @@ TEST_F(EnginesGBuffer, RefusalsSayWhatIsWrong) {
   const gl::Texture other(gl::Format::rgba32f, 5, 4), many(gl::Format::rgba32f, 84, 60, 2);
   EXPECT_THAT(refused([&](GBuffer& g) { g.normal = other.id(); }),
               HasSubstr("G-buffer, normal: its texture has 5 x 4"));
+  EXPECT_THAT(refused([&](GBuffer& g) { g.geometric_normal = other.id(); }),
+              HasSubstr("G-buffer, geometric normal: its texture has 5 x 4"));
   EXPECT_THAT(refused([&](GBuffer& g) { g.moving = many.id(); }), HasSubstr("no 2-D texture"));
   EXPECT_THAT(refused([](GBuffer& g) { g.view_projection = mat4(0); }), HasSubstr("cannot be inverted"));
   EXPECT_THAT(refused([](GBuffer& g) { g.view_projection[0].y = 3; }), HasSubstr("none of a perspective or"));

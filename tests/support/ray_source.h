@@ -12,11 +12,7 @@ class RaySource final : public UnlitSource {
   using Meets = std::function<rays::RayHit(const vec3& origin, const vec3& direction)>;
   explicit RaySource(Meets meets) : meets_(std::move(meets)) {}
 
-  int part_count() const override { return 1; }
-  const std::string& part_name(int) const override { return name_; }
   scene::Bounds part_bounds(int) const override { return {vec3(-1), vec3(1)}; }
-  float duration() const override { return 0; }
-  mat4 part_pose(int, float) const override { return mat4(1); }
   void intersect(int, std::span<const rays::RayQuery> rays, std::span<rays::RayHit> hits) const override {
     for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = meets_(rays[i].origin, rays[i].direction);
   }
@@ -24,11 +20,9 @@ class RaySource final : public UnlitSource {
     for (std::size_t i = 0; i < rays.size(); ++i)
       blocked[i] = meets_(rays[i].origin, rays[i].direction).distance < rays[i].t_max;
   }
-  std::uint64_t rays_traced() const override { return 0; }
 
  private:
   Meets meets_;
-  std::string name_ = "static";
 };
 
 /// A surface that faces the ray, or shows its back.

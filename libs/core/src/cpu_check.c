@@ -23,7 +23,7 @@ __attribute__((constructor(101))) static void check(void) {
   if (!lacks) return;
   tell("ssphh: error: this build needs a CPU with ");
   tell(lacks);
-  tell(", which this machine lacks: build it with -DSSPHH_ARCH=x86-64\n");
+  tell(", which this machine lacks: build it with -DSSPHH_ARCH=\n");
   _Exit(1);
 }
 #endif

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -34,6 +35,23 @@ void check_groups(const ProbeSet& set) {
 }
 
 }  // namespace
+
+ProbeSet dark_set(std::span<const scene::ProbePlace> places, int degree) {
+  if (degree < 0 || degree > sh::max_degree)
+    throw Error(fmt::format("degree {}", degree), fmt::format("the degree must be 0..{}", sh::max_degree));
+  ProbeSet set;
+  set.degree = degree;
+  for (const scene::ProbePlace& place : places) {
+    if (!is_finite(place.position) || !std::isfinite(place.radius) || place.radius <= 0)
+      throw Error(fmt::format("SPHL \"{}\"", place.name),
+                  "its position must be finite and its radius positive");
+    Probe& probe = set.probes.emplace_back();
+    probe.name = place.name.substr(0, limits::text);
+    probe.position = place.position;
+    probe.radius = place.radius;
+  }
+  return set;
+}
 
 float emitter_radiance(VizSource source, float radius) {
   return source == VizSource::intensity ? 1 / (pi * radius * radius) : 1;

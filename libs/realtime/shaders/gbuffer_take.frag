@@ -5,16 +5,23 @@
 layout(binding = 8) uniform sampler2D depth_image;
 layout(binding = 9) uniform sampler2D position_image;
 layout(binding = 10) uniform sampler2D normal_image;
-layout(binding = 11) uniform sampler2D albedo_image;
-layout(binding = 12) uniform sampler2D moving_image;
-uniform ivec4 given;            // position, normals from zero, albedo, moving
-uniform ivec4 depth_range;      // 1: clip space has z in 0..w
+layout(binding = 11) uniform sampler2D geometric_normal_image;
+layout(binding = 12) uniform sampler2D albedo_image;
+layout(binding = 13) uniform sampler2D moving_image;
+uniform ivec4 given;   // position, geometric normal, albedo, moving
+uniform ivec4 stored;  // clip space has z in 0..w, normals from zero
 uniform float empty_depth;
 uniform mat4 clip_to_world;
 
 layout(location = 0) out uvec4 gbuffer0;
 layout(location = 1) out uvec2 gbuffer1;
 layout(location = 2) out vec4 color_out;
+
+vec3 normal_at(sampler2D normals, ivec2 at) {
+  vec3 n = texelFetch(normals, at, 0).xyz;
+  return stored.y != 0 ? 2 * n - 1 : n;
+}
+uint pack_normal(vec3 normal) { return packSnorm2x16(oct_encode(normalize(normal))); }
 
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
@@ -26,11 +33,11 @@ void main() {
   } else {
     float depth = texelFetch(depth_image, at, 0).x;
     if (depth == empty_depth) discard;
-    place = clip_to_world * vec4(plane, depth_range.x != 0 ? depth : 2 * depth - 1, 1);
+    place = clip_to_world * vec4(plane, stored.x != 0 ? depth : 2 * depth - 1, 1);
     place /= place.w;
   }
-  vec3 n = texelFetch(normal_image, at, 0).xyz;
-  if (given.y != 0) n = 2 * n - 1;
+  vec3 shading = normal_at(normal_image, at);
+  vec3 geometric = given.y != 0 ? normal_at(geometric_normal_image, at) : shading;
   vec3 albedo = given.z != 0 ? texelFetch(albedo_image, at, 0).rgb : vec3(1);
   bool moves = given.w != 0 && texelFetch(moving_image, at, 0).x > 0.5;
 
@@ -41,9 +48,8 @@ void main() {
   vec3 ray = frame.camera_forward.xyz + (orthographic ? vec3(0) : across);
   vec3 away = place.xyz - frame.camera_position.xyz - (orthographic ? across : vec3(0));
   float depth = dot(away, ray) / dot(ray, ray);
-  if (!(depth > 0) || !(dot(n, n) > 0)) discard;
-  uint normal = packSnorm2x16(oct_encode(normalize(n)));
-  gbuffer0 = uvec4(normal, normal, pack_color(albedo, moves ? 1u : 0u), 0u);
+  if (!(depth > 0) || !(dot(shading, shading) > 0) || !(dot(geometric, geometric) > 0)) discard;
+  gbuffer0 = uvec4(pack_normal(shading), pack_normal(geometric), pack_color(albedo, moves ? 1u : 0u), 0u);
   gbuffer1 = uvec2(0u, floatBitsToUint(depth));
   color_out = vec4(0);
 }

@@ -17,10 +17,11 @@ struct Part {
   const char* name;
   unsigned texture;
 };
-std::array<Part, 5> parts_of(const GBuffer& g) {
+std::array<Part, 6> parts_of(const GBuffer& g) {
   return {{{"depth", g.position == 0 ? g.depth : 0},
            {"position", g.position},
            {"normal", g.normal},
+           {"geometric normal", g.geometric_normal},
            {"albedo", g.albedo},
            {"moving", g.moving}}};
 }
@@ -56,8 +57,8 @@ void Renderer::Data::take_geometry() {
     texel_sampler.bind(end++);
   }
   gl::Program& program = shaders.take_gbuffer();
-  program.set("given", g.position != 0, g.normal_from_zero, g.albedo != 0, g.moving != 0);
-  program.set("depth_range", g.zero_to_one, 0);
+  program.set("given", g.position != 0, g.geometric_normal != 0, g.albedo != 0, g.moving != 0);
+  program.set("stored", g.zero_to_one, g.normal_from_zero);
   program.set("empty_depth", g.empty_depth);
   program.set("clip_to_world", mat4(glm::inverse(glm::dmat4(g.view_projection))));
   gl::bind_framebuffer(images.geometry_pass.id(), images.full());

@@ -1,3 +1,4 @@
+#include <ssphh/core/for_this_cpu.h>
 #include <ssphh/core/require.h>
 #include <ssphh/sh/evaluate.h>
 #include <ssphh/transport/projection.h>
@@ -8,19 +9,20 @@ namespace {
 using float8 = float __attribute__((vector_size(32)));
 constexpr std::size_t lanes = 8;
 
-float8 load(const float* p) {
+SSPHH_IN_LOOP inline float8 load(const float* p) {
   float8 v;
   __builtin_memcpy(&v, p, sizeof(v));
   return v;
 }
 
-float sum(const float8& v) {
+SSPHH_IN_LOOP inline float sum(const float8& v) {
   return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));
 }
 
 /// `Count` coefficients times three channels: that many accumulators stay in registers.
 template <std::size_t Count>
-void project_tile(const float* basis, const float* radiance, std::size_t stride, vec3* out) {
+SSPHH_IN_LOOP inline void project_tile(const float* basis, const float* radiance, std::size_t stride,
+                                       vec3* out) {
   float8 sums[Count][3] = {};
   for (std::size_t q = 0; q < stride; q += lanes) {
     const float8 light[3] = {load(radiance + q), load(radiance + stride + q),
@@ -52,12 +54,14 @@ DirectionProjector::DirectionProjector(int degree, std::span<const vec3> directi
 void DirectionProjector::project(std::span<const float> radiance, sh::RadianceSh& out) const {
   require(radiance.size() == 3 * stride_ && out.degree() == degree_, "projection of probes",
           "radiance or function are not of the projector's size");
-  const std::size_t count = out.values.size();
-  std::size_t k = 0;
-  for (; k + 4 <= count; k += 4)
-    project_tile<4>(basis_.data() + k * stride_, radiance.data(), stride_, out.values.data() + k);
-  for (; k < count; ++k)
-    project_tile<1>(basis_.data() + k * stride_, radiance.data(), stride_, out.values.data() + k);
+  const std::size_t count = out.values.size(), stride = stride_;
+  const float *const basis = basis_.data(), *const light = radiance.data();
+  vec3* const values = out.values.data();
+  for_this_cpu([=]() SSPHH_IN_LOOP {
+    std::size_t k = 0;
+    for (; k + 4 <= count; k += 4) project_tile<4>(basis + k * stride, light, stride, values + k);
+    for (; k < count; ++k) project_tile<1>(basis + k * stride, light, stride, values + k);
+  });
 }
 
 sh::RadianceSh project_arriving(std::span<const rays::ArrivingLight> light, int degree) {

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/require.h>
+#include <ssphh/scene/lighting_state.h>
 #include <ssphh/scene/probe_place.h>
 #include <ssphh/transport/bounce.h>
 #include <ssphh/transport/direct_field.h>

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include <ssphh/probes/surface_records.h>
 #include <ssphh/rays/path_set.h>
 #include <ssphh/scene/light_mode.h>
+#include <ssphh/scene/probe_place.h>
 #include <ssphh/sh/operators.h>
 
 namespace ssphh::probes {
@@ -166,6 +168,10 @@ struct ProbeSet {
 
   friend bool operator==(const ProbeSet&, const ProbeSet&) = default;
 };
+
+/// A set without light: a probe at each of the places, in their order. Throws Error for a degree outside
+/// 0..10, for a position that is not finite and for a radius that is not positive.
+ProbeSet dark_set(std::span<const scene::ProbePlace> places, int degree);
 
 /// Recomputes `reflected` and `self` of every probe, and the light of surface records, from their groups and
 /// the scales. Throws Error, and leaves the set as it was, for a degree outside 0..10, for functions of

@@ -66,7 +66,8 @@ struct IrradianceEstimate {
   vec3 indirect_covariance{0};  ///< of the same: red with green, green with blue, blue with red
 };
 
-/// Implemented by trace::PathTracer. All calls may come from several threads at once.
+/// Implemented by trace::PathTracer. All calls may come from several threads at once. What has a body here
+/// refuses or answers for a source that cannot tell: baking without VIZ asks for the rest alone.
 class RadianceSource {
  public:
   virtual ~RadianceSource() = default;
@@ -83,9 +84,12 @@ class RadianceSource {
   /// [0, ghost_chunk_count): accumulate per chunk and reduce in chunk order to stay deterministic.
   using GhostSink = std::function<void(int chunk, const GhostPath&)>;
   static constexpr int ghost_chunk_count = 48;
-  virtual std::vector<image::CubeMap> ghost_radiance(const CubeRequest& request,
-                                                     std::span<const GhostSphere> ghosts,
-                                                     const GhostSink& sink, const Control& control) const = 0;
+  virtual std::vector<image::CubeMap> ghost_radiance(const CubeRequest& /*request*/,
+                                                     std::span<const GhostSphere> /*ghosts*/,
+                                                     const GhostSink& /*sink*/,
+                                                     const Control& /*control*/) const {
+    refuse("radiance source", "it cannot trace light of ghost spheres");
+  }
 
   /// Irradiance at surface points. The point's own scattering counts as depth 1, so max_depth 1 gives direct
   /// light alone and `indirect` holds depths 2..max_depth. spp · passes paths per point.
@@ -106,8 +110,8 @@ class RadianceSource {
   /// closed body, where a probe is of no use. 0 where the source cannot tell.
   virtual float backface_fraction(const vec3& /*position*/) const { return 0; }
 
-  /// Rays traced so far by this object.
-  virtual std::uint64_t rays_traced() const = 0;
+  /// Rays traced so far by this object; 0 of one that does not count.
+  virtual std::uint64_t rays_traced() const { return 0; }
 };
 
 /// Indirect light at surface points: all calls may come from several threads at once. Implemented by

@@ -92,11 +92,13 @@ class DirectLight {
   /// points; a stratified estimate, the same at every call, for those with an extent and for the environment.
   virtual void irradiance(int group, std::span<const SurfacePoint> points, std::span<vec3> out) const = 0;
   /// Whether a body inside `box` may change the group's light at the point; false only if it cannot.
-  virtual bool may_shadow(int group, const SurfacePoint& point, const scene::Bounds& box) const = 0;
+  virtual bool may_shadow(int /*group*/, const SurfacePoint& /*point*/, const scene::Bounds& /*box*/) const {
+    return true;
+  }
   /// Radiance of the group's emitters that are no surfaces (sphere lights, environment, a sun's disc) along a
   /// world-space ray whose nearest surface is at `distance`, infinite if it escapes: darkness there is
   /// darkness at any distance.
-  virtual vec3 emitted(int group, const RayQuery& ray, float distance) const = 0;
+  virtual vec3 emitted(int /*group*/, const RayQuery& /*ray*/, float /*distance*/) const { return vec3(0); }
   /// The group's light at a surface point, from so many samples of each of its emitters, the same at every
   /// call: for light that is kept, where noise would stay.
   virtual IrradianceByNormal irradiance_by_normal(int /*group*/, const SurfacePoint& /*point*/,
@@ -137,23 +139,24 @@ class DirectLight {
 class RadianceSource;
 
 /// Implemented by trace::TransportScene. All calls may come from several threads at once, but
-/// renew_direct_light() for one `light`.
+/// renew_direct_light() for one `light`. What has a body here answers for a world in which nothing moves and
+/// that has no lamps to turn: the rest is an own ray tracer (examples/own_rays.cpp).
 class TransportSource {
  public:
   virtual ~TransportSource() = default;
 
   /// 1 + number of moving parts. Part 0 is all that never moves, in world space; every other part is rigid in
   /// its own frame.
-  virtual int part_count() const = 0;
-  virtual const std::string& part_name(int part) const = 0;
+  virtual int part_count() const { return 1; }
+  virtual const std::string& part_name(int part) const;
   /// In the part's frame; empty for a part without triangles.
   virtual scene::Bounds part_bounds(int part) const = 0;
   /// Seconds after which nothing moves any more.
-  virtual float duration() const = 0;
+  virtual float duration() const { return 0; }
   /// Part to world at `time` seconds; the identity for part 0.
-  virtual mat4 part_pose(int part, float time) const = 0;
-  /// Points uniform by area, at least one per triangle; the same at every call.
-  virtual std::vector<PartPoint> sample_part(int part, double points_per_square_metre) const = 0;
+  virtual mat4 part_pose(int part, float time) const;
+  /// Points of a part that moves, uniform by area, at least one per triangle; the same at every call.
+  virtual std::vector<PartPoint> sample_part(int part, double points_per_square_metre) const;
 
   /// Nearest hit of each ray with one part alone, rays and hits in the part's frame.
   virtual void intersect(int part, std::span<const RayQuery> rays, std::span<RayHit> hits) const = 0;
@@ -165,20 +168,21 @@ class TransportSource {
     return {};
   }
   /// blocked[i] = 1 where the part alone meets segment i, else 0; in the part's frame.
-  virtual void occluded(int part, std::span<const RayQuery> rays, std::span<std::uint8_t> blocked) const = 0;
+  /// What intersect() tells.
+  virtual void occluded(int part, std::span<const RayQuery> rays, std::span<std::uint8_t> blocked) const;
   /// Whether the part alone neither meets the segment nor has glass on it that dims light; in the part's
   /// frame. What intersect() tells; a source that knows it for less says so here.
   virtual bool joined(int part, const RayQuery& segment) const;
 
   virtual const std::vector<std::string>& light_groups() const = 0;
   /// The scene's lights posed at `time`, in the scene's order.
-  virtual std::vector<scene::LightState> lights(float time) const = 0;
+  virtual std::vector<scene::LightState> lights(float time) const;
   /// Names and group indices of lights(), in the same order.
-  virtual const std::vector<std::string>& light_names() const = 0;
-  virtual int light_group_of(int light) const = 0;
+  virtual const std::vector<std::string>& light_names() const;
+  virtual int light_group_of(int light) const;
   /// Whether the group has emitters beside lights(): emissive meshes on the given part. Part 0 also stands
   /// for the environment.
-  virtual bool group_emits_from(int group, int part) const = 0;
+  virtual bool group_emits_from(int group, int part) const;
   /// Group index of the environment; −1: there is none.
   virtual int environment_group() const { return -1; }
   /// `lights` as from lights(), perhaps changed; `poses` one matrix per part; the environment as
@@ -200,8 +204,8 @@ class TransportSource {
   /// object, but not the scene.
   virtual std::unique_ptr<RadianceSource> path_tracing(const scene::LightingState& state) const;
 
-  /// Rays traced so far by this object and its DirectLights.
-  virtual std::uint64_t rays_traced() const = 0;
+  /// Rays traced so far by this object and its DirectLights; 0 of one that does not count.
+  virtual std::uint64_t rays_traced() const { return 0; }
 };
 
 /// The source's own lights as they are at `time` seconds, every group at its full strength.

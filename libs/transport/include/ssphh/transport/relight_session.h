@@ -23,12 +23,14 @@
 #include <ssphh/core/control.h>
 #include <ssphh/core/held.h>
 #include <ssphh/probes/probe_set.h>
-#include <ssphh/scene/lighting_state.h>
 #include <ssphh/scene/probe_place.h>
 #include <ssphh/transport/transport_params.h>
 
 namespace ssphh::rays {
 class TransportSource;
+}
+namespace ssphh::scene {
+struct LightingState;  // scene/lighting_state.h
 }
 
 namespace ssphh::transport {
