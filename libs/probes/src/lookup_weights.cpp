@@ -74,9 +74,7 @@ class VisibleWeights : public LookupWeights {
 class DistanceWeights final : public VisibleWeights {
  public:
   using VisibleWeights::VisibleWeights;
-  ProbeWeights at(const rays::SurfacePoint& point) const override {
-    return by_distance(point);
-  }
+  ProbeWeights at(const rays::SurfacePoint& point) const override { return by_distance(point); }
 };
 
 class TrilinearWeights final : public VisibleWeights {

@@ -68,7 +68,6 @@ vec3 radiance_of(int probe, RadiancePlace at) {
 
 // From off the surface as probes::ProbeSight starts its rays; one texel decides.
 bool sees_probe(vec3 probe_place, int probe, vec3 x, vec3 n, vec3 geometric, float distance) {
-  if (dot(n, probe_place - x) < -SIGHT_BELOW * distance) return false;
   vec3 lift = SIGHT_LIFT * min(distance, frame.tone.w) * n;
   return cube_sight(probe_maps, frame.maps.z, frame.map_tiles.z, frame.map_near.z, probe, probe_place, x, lift, geometric);
 }

@@ -61,7 +61,6 @@ inline constexpr std::array constants_of_shaders = {
     ShaderConstant{"MAX_NEAR", max_weights, true},
     ShaderConstant{"MAX_BLEND", blended_probes, true},
     ShaderConstant{"SIGHT_LIFT", sight_lift},
-    ShaderConstant{"SIGHT_BELOW", sight_below},
     ShaderConstant{"STILL_SHARE_OF_SKY", still_share_of_sky},
     ShaderConstant{"WRAPPED_FLOOR", wrapped_floor},
     ShaderConstant{"HIDDEN_SLOPE", hidden_slope},
