@@ -26,6 +26,11 @@ TEST(Progress, NoneSaysNothing) {
   EXPECT_EQ(told(ProgressStyle::none, 10, 10), "");
 }
 
+TEST(Progress, IsInPlainLinesWhereThereIsNoTerminal) {
+  const std::string line = told(ProgressStyle::automatic, 10, 10);
+  EXPECT_THAT(line, MatchesRegex("baking: 10 rays in .*\n"));
+}
+
 TEST(Progress, JsonTellsRateAndRemainingTimeOfOneLine) {
   const json::Value line = test::parse_json(told(ProgressStyle::json, 40, 10));
   EXPECT_EQ(line["stage"], "baking");
