@@ -21,7 +21,7 @@ class TexelSight {
   bool sees(const rays::SurfacePoint& at, const vec3& lifted, const vec3& probe) const {
     const glm::dvec3 away = glm::dvec3(at.position) - glm::dvec3(probe), n(at.normal);
     const double height = -glm::dot(n, away), length = glm::length(away);
-    if (!at.moves && height < 0 && -height > 0.25 * length) return false;
+    if (!at.moves && height < 0 && -height > 0.05 * length) return false;
     const vec3 d = lifted - probe;
     if (d == vec3(0)) return true;
     const CubePoint place = cube_point(d);

@@ -15,14 +15,15 @@ struct LightLookup::Data {
     vec3 direction;  ///< ω, from x to the probe
     bool lights;
   };
-  Chosen choose(const vec3& x, const vec3& n) const {
+  Chosen choose(const rays::SurfacePoint& at) const {
+    const vec3 &x = at.position, &n = at.normal;
     ProbeSight::NearList near;
     const int count = sight->nearest(x, near);
     for (int i = 0; i < count; ++i) {
       const geometry::Near& candidate = near[static_cast<std::size_t>(i)];
       if (!(candidate.distance2 > 0)) continue;
       const vec3 direction = (probes.position(candidate.index) - x) / std::sqrt(candidate.distance2);
-      if (glm::dot(n, direction) > 0 && sight->sees(candidate, x, n))
+      if (glm::dot(n, direction) > 0 && sight->sees(candidate, at))
         return {candidate.index, direction, true};
     }
     return {count > 0 ? near[0].index : 0, n, false};  // none is near a point that is no number
@@ -56,8 +57,8 @@ void LightLookup::swap_light(const ProbeSet& set) {
 }
 
 vec3 LightLookup::irradiance(const rays::SurfacePoint& at) const {
-  const vec3 &x = at.position, &n = at.normal;
-  const Data::Chosen chosen = data_->choose(x, n);
+  const vec3& n = at.normal;
+  const Data::Chosen chosen = data_->choose(at);
   PackedProbes::Basis basis;
   if (!chosen.lights) {
     data_->probes.irradiance_basis(n, basis);
@@ -74,7 +75,7 @@ std::vector<std::string> LightLookup::direct_groups() const {
 vec3 LightLookup::glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const {
   PackedProbes::Basis basis;
   data_->probes.glossy_basis(r, roughness, basis);
-  return data_->probes.radiance(data_->choose(at.position, at.normal).probe, basis.data());
+  return data_->probes.radiance(data_->choose(at).probe, basis.data());
 }
 
 }  // namespace ssphh::probes

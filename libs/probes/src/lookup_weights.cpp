@@ -22,10 +22,11 @@ class VisibleWeights : public LookupWeights {
 
  protected:
   /// The method `distance`, which also serves where the others find nothing.
-  ProbeWeights by_distance(const vec3& x, const vec3& n) const {
+  ProbeWeights by_distance(const rays::SurfacePoint& at) const {
+    const vec3 &x = at.position, &n = at.normal;
     NearList near;
     const int count = sight_.nearest(x, near);
-    int visible = sight_.visible_first(near, count, wanted_, x, n);
+    int visible = sight_.visible_first(near, count, wanted_, at);
     const bool none_seen = visible == 0;
     if (none_seen) {
       std::sort(near.begin(), near.begin() + count);
@@ -73,16 +74,14 @@ class VisibleWeights : public LookupWeights {
 class DistanceWeights final : public VisibleWeights {
  public:
   using VisibleWeights::VisibleWeights;
-  ProbeWeights at(const rays::SurfacePoint& point) const override {
-    return by_distance(point.position, point.normal);
-  }
+  ProbeWeights at(const rays::SurfacePoint& point) const override { return by_distance(point); }
 };
 
 class TrilinearWeights final : public VisibleWeights {
  public:
   using VisibleWeights::VisibleWeights;
   ProbeWeights at(const rays::SurfacePoint& point) const override {
-    const vec3 &x = point.position, &n = point.normal;
+    const vec3& x = point.position;
     const float spacing = sight_.spacing();
     // A cell's corners lie within √3 spacings, as do up to 27 probes of a grid.
     std::array<geometry::Near, 27> near;
@@ -91,10 +90,10 @@ class TrilinearWeights final : public VisibleWeights {
     for (int i = 0; i < count && out.count < max_weights; ++i) {
       const geometry::Near& probe = near[static_cast<std::size_t>(i)];
       const vec3 tent = 1.0f - glm::abs(sight_.position(probe.index) - x) / spacing;
-      if (!(std::min({tent.x, tent.y, tent.z}) > least_tent) || !sight_.sees(probe, x, n)) continue;
+      if (!(std::min({tent.x, tent.y, tent.z}) > least_tent) || !sight_.sees(probe, point)) continue;
       out.add(probe.index, tent.x * tent.y * tent.z);
     }
-    if (out.count == 0) return by_distance(x, n);
+    if (out.count == 0) return by_distance(point);
     normalise(out);
     return out;
   }
@@ -104,12 +103,12 @@ class MlsWeights final : public VisibleWeights {
  public:
   using VisibleWeights::VisibleWeights;
   ProbeWeights at(const rays::SurfacePoint& point) const override {
-    const vec3 &x = point.position, &n = point.normal;
+    const vec3& x = point.position;
     NearList near;
     const float radius = mls_reach * sight_.spacing();
     const int count = sight_.nearest(x, near, radius);
-    const int visible = sight_.visible_first(near, count, count, x, n);
-    if (visible == 0) return by_distance(x, n);
+    const int visible = sight_.visible_first(near, count, count, point);
+    if (visible == 0) return by_distance(point);
 
     // Fit a + b·(p − x) to the probes, weighted by a bump of two spacings; the value at x is a. A ridge on b
     // keeps the fit flat along directions in which the probes do not differ.

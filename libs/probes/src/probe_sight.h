@@ -36,17 +36,18 @@ class ProbeSight {
     return nearest_.find(x, near, radius);
   }
 
-  bool sees(const geometry::Near& near, const vec3& x, const vec3& n) const {
-    const float offset = offset_ > 0 ? offset_ : sight_lift * std::min(std::sqrt(near.distance2), spacing_);
-    return sees_(x + offset * n, position(near.index));
+  bool sees(const geometry::Near& near, const rays::SurfacePoint& at) const {
+    float offset = offset_ > 0 ? offset_ : sight_lift * std::min(std::sqrt(near.distance2), spacing_);
+    if (!at.moves && cosine(near.index, at.position, at.normal) < -sight_below) offset *= sight_lift_below;
+    return sees_(at.position + offset * at.normal, position(near.index));
   }
 
   /// Moves the visible ones of the first `count` to the front, at most `wanted`; returns their number.
-  int visible_first(NearList& near, int count, int wanted, const vec3& x, const vec3& n) const {
+  int visible_first(NearList& near, int count, int wanted, const rays::SurfacePoint& at) const {
     int visible = 0;
     for (int i = 0; i < count && visible < wanted; ++i) {
       const geometry::Near candidate = near[static_cast<std::size_t>(i)];
-      if (!sees(candidate, x, n)) continue;
+      if (!sees(candidate, at)) continue;
       // Those that they replace were all hidden.
       std::swap(near[static_cast<std::size_t>(visible++)], near[static_cast<std::size_t>(i)]);
     }

@@ -55,6 +55,27 @@ TEST(LookupSight, StartsAHundredthOfTheDistanceOffTheSurfaceAndAtMostOfTheSpacin
   }
 }
 
+TEST(LookupSight, ReachesBehindItsSurfaceOverNoEdge) {
+  // A wall in the plane y = 0 that ends at x = 0; probes stand behind it, and see what moves before it.
+  const SeesProbe sees = [](const vec3& from, const vec3& p) {
+    const float share = from.y / (from.y - p.y);
+    return from.y > 0 && from.x + share * (p.x - from.x) > 0;
+  };
+  const float lift = 0.01f * glm::length(vec3(0.505f, -0.5f, 0));
+  ASSERT_TRUE(sees(vec3(-0.005f, lift, 0), vec3(0.5f, -0.5f, 0)));
+  for (const WeightMethod method : {WeightMethod::distance, WeightMethod::mls}) {
+    WeightParams params;
+    params.method = method;
+    const auto weights = make_weights(std::vector{vec3(0.5f, -0.5f, 0), vec3(0.9f, -0.6f, 0)}, sees, params);
+    for (const bool moves : {false, true}) {
+      const ProbeWeights at = weights->at({{-0.005f, 0, 0}, up, moves});
+      float sum = 0;
+      for (const ProbeWeight& entry : at.used()) sum += entry.weight;
+      EXPECT_NEAR(sum, moves ? 1 : 0, 1e-6f);
+    }
+  }
+}
+
 TEST(LookupSight, AHiddenProbeInFrontCountsInFullFromAQuarterOfTheCosineOn) {
   for (const float cosine : {-0.5f, 0.0f, 0.1f, 0.2f, 0.24f, 0.26f, 1.0f}) {
     const vec3 n(0, cosine, std::sqrt(1 - cosine * cosine));

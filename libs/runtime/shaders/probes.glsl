@@ -8,7 +8,7 @@ bool ssphh_sees(int probe, vec4 at, vec3 x, vec3 n, float lift, bool still) {
   float size = float(texels), half_size = 0.5 * size;
   vec3 away = x - at.xyz, d = away + lift * n, size_of = abs(d);
   float height = -dot(n, away);
-  if (still && height < 0.0 && height * height > 0.0625 * dot(away, away)) return false;
+  if (still && height < 0.0 && height * height > 0.0025 * dot(away, away)) return false;
   int axis = size_of.x >= size_of.y && size_of.x >= size_of.z ? 0 : size_of.y >= size_of.z ? 1 : 2;
   float major = axis == 0 ? size_of.x : axis == 1 ? size_of.y : size_of.z;
   float side = (axis == 0 ? d.x : axis == 1 ? d.y : d.z) > 0.0 ? 1.0 : -1.0;

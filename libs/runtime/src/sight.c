@@ -52,8 +52,8 @@ int ssphh_runtime_sees(const ssphh_runtime* rt, uint32_t probe, unsigned flags, 
   const float away[3] = {x[0] - p->position[0], x[1] - p->position[1], x[2] - p->position[2]};
   const float d[3] = {away[0] + lift * n[0], away[1] + lift * n[1], away[2] + lift * n[2]};
   const float height = -ssphh_runtime_dot(n, away);
-  // From so far below a surface, light reaches a place only over an edge nearer than a 25th of the way
-  if (flags == SSPHH_RUNTIME_STILL && height < 0 && height * height > 0.0625f * ssphh_runtime_dot(away, away))
+  // From so far below a surface, light reaches a place only over an edge nearer than a fifth of the way
+  if (flags == SSPHH_RUNTIME_STILL && height < 0 && height * height > 0.0025f * ssphh_runtime_dot(away, away))
     return 0;
   float major, right, down;
   const int face = face_of(d, &major, &right, &down);

@@ -12,8 +12,8 @@ export function sees(file: CookedFile, probe: number, still: boolean, x: Float3,
   const awayX = f(x[0]! - probes[4 * probe]!), awayY = f(x[1]! - probes[4 * probe + 1]!), awayZ = f(x[2]! - probes[4 * probe + 2]!);
   const dx = f(awayX + f(lift * nx)), dy = f(awayY + f(lift * ny)), dz = f(awayZ + f(lift * nz));
   const height = -dot3(nx, ny, nz, awayX, awayY, awayZ);
-  // From so far below a surface, light reaches a place only over an edge nearer than a 25th of the way
-  if (still && height < 0 && f(height * height) > f(0.0625 * dot3(awayX, awayY, awayZ, awayX, awayY, awayZ))) return false;
+  // From so far below a surface, light reaches a place only over an edge nearer than a fifth of the way
+  if (still && height < 0 && f(height * height) > f(0.0025 * dot3(awayX, awayY, awayZ, awayX, awayY, awayZ))) return false;
   const sizeX = Math.abs(dx), sizeY = Math.abs(dy), sizeZ = Math.abs(dz);
   const axis = sizeX >= sizeY && sizeX >= sizeZ ? 0 : sizeY >= sizeZ ? 1 : 2, major = axis === 0 ? sizeX : axis === 1 ? sizeY : sizeZ;
   if (!(major > 0)) return true; // the probe stands there

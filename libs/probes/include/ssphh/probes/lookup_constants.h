@@ -12,6 +12,9 @@ namespace ssphh::probes {
 /// Rays toward probes start so far off the surface, in shares of the distance or of the spacing of probes,
 /// whichever is less.
 inline constexpr float sight_lift = 0.01f;
+/// Toward probes that far below the tangent plane, as a sine, they start at this share of it: past an edge of
+/// the surface they would meet what stands behind it.
+inline constexpr float sight_below = 0.05f, sight_lift_below = 0.01f;
 /// What a probe right behind the surface keeps of its weight by distance, beside the wrapped cosine.
 inline constexpr float wrapped_floor = 0.05f;
 /// A hidden probe that stands in for visible ones counts so much per cosine above the tangent plane, at
