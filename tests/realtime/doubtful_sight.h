@@ -1,7 +1,7 @@
 #pragma once
 /// What a lookup may be where maps of probes' sight have texels: one texel tells whether a probe is seen, by
-/// a ray half a texel aside at most. And OpenGL asks no probe that stands lower than a quarter of its
-/// distance below the surface, where sight begins 1 % of it above.
+/// a ray half a texel aside at most. And OpenGL asks no probe that stands lower than a twentieth of
+/// its distance below what stands still, a quarter below what moves, where sight may pass an edge close by.
 
 #include <algorithm>
 #include <array>
@@ -57,7 +57,7 @@ class DoubtfulSight {
   /// leave out the 1.5 texels' widths within which depths are taken to be the same.
   bool in_doubt(const vec3& from, const vec3& probe, bool exact) const {
     const vec3 way = probe - at_.position;
-    if (exact && glm::dot(way, at_.normal) < -0.249f * glm::length(way)) return true;
+    if (exact && glm::dot(way, at_.normal) < (at_.moves ? -0.249f : -0.049f) * glm::length(way)) return true;
     const vec3 d = from - probe, a = glm::abs(d);
     const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
     vec3 right(0), up(0);

@@ -23,8 +23,7 @@ struct LightLookup::Data {
       const geometry::Near& candidate = near[static_cast<std::size_t>(i)];
       if (!(candidate.distance2 > 0)) continue;
       const vec3 direction = (probes.position(candidate.index) - x) / std::sqrt(candidate.distance2);
-      if (glm::dot(n, direction) > 0 && sight->sees(candidate, at))
-        return {candidate.index, direction, true};
+      if (glm::dot(n, direction) > 0 && sight->sees(candidate, at)) return {candidate.index, direction, true};
     }
     return {count > 0 ? near[0].index : 0, n, false};  // none is near a point that is no number
   }

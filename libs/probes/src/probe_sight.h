@@ -37,9 +37,7 @@ class ProbeSight {
   }
 
   bool sees(const geometry::Near& near, const rays::SurfacePoint& at) const {
-    float offset = offset_ > 0 ? offset_ : sight_lift * std::min(std::sqrt(near.distance2), spacing_);
-    if (!at.moves && cosine(near.index, at.position, at.normal) < -sight_below) offset *= sight_lift_below;
-    return sees_(at.position + offset * at.normal, position(near.index));
+    return sees_(at.position + lift(near, at) * at.normal, position(near.index));
   }
 
   /// Moves the visible ones of the first `count` to the front, at most `wanted`; returns their number.
@@ -55,6 +53,14 @@ class ProbeSight {
   }
 
  private:
+  float lift(const geometry::Near& near, const rays::SurfacePoint& at) const {
+    if (offset_ > 0) return offset_;
+    const float distance = std::sqrt(near.distance2), usual = sight_lift * std::min(distance, spacing_);
+    if (at.moves || cosine(near.index, at.position, at.normal) >= -sight_below) return usual;
+    return std::min(usual,
+                    sight_lift_below * distance + sight_rounding * max_component(glm::abs(at.position)));
+  }
+
   std::vector<vec3> positions_;
   geometry::NearestPoints nearest_;
   SeesProbe sees_;

@@ -61,11 +61,11 @@ Found look_up(Surface s, vec3 mirror, float roughness, bool wanted) {
   return found;
 }
 #else
-// Whether a probe in direction d is worth a look: from one this far below the tangent plane, light reaches x only
-// over an edge that is nearer than 4 % of the distance, for sight begins 1 % of it off the surface.
-bool maybe_above(vec3 d, float d2, vec3 n) {
-  float height = dot(d, n);
-  return height >= 0 || height * height <= 0.0625 * d2;
+// Whether a probe in direction d is worth a look: from below the tangent plane light reaches what stands still over no
+// edge, and what moves only over one that is nearer than 4 % of the distance, for sight begins 1 % of it off the surface.
+bool maybe_above(vec3 d, float d2, Surface s) {
+  float height = dot(d, s.geometric_normal), below = s.moves ? 0.25 : SIGHT_BELOW;
+  return height >= 0 || height * height <= below * below * d2;
 }
 
 float bump_of(float d2) {
@@ -118,7 +118,7 @@ Found look_up(Surface s, vec3 mirror, float roughness, bool wanted) {
     uint bit = 1u << i;
     d2_of[i] = d2;
     listed |= bit;
-    bool above = maybe_above(d, d2, s.normal);
+    bool above = maybe_above(d, d2, s);
 #ifdef FIT
 #ifdef MLS
     bool reached = d2 < reach2;

@@ -12,9 +12,11 @@ namespace ssphh::probes {
 /// Rays toward probes start so far off the surface, in shares of the distance or of the spacing of probes,
 /// whichever is less.
 inline constexpr float sight_lift = 0.01f;
-/// Toward probes that far below the tangent plane, as a sine, they start at this share of it: past an edge of
-/// the surface they would meet what stands behind it.
-inline constexpr float sight_below = 0.05f, sight_lift_below = 0.01f;
+/// Toward probes that far below the tangent plane of what stands still, as a sine, they start at a share of
+/// the distance, for past an edge of the surface they would meet what stands behind; and at so much of the
+/// greatest coordinate, for they must not start beyond the surface itself: what tells of sight leaves out a
+/// ten-thousandth of the way at its ends, and what may be rounding.
+inline constexpr float sight_below = 0.05f, sight_lift_below = 2e-4f, sight_rounding = 4e-6f;
 /// What a probe right behind the surface keeps of its weight by distance, beside the wrapped cosine.
 inline constexpr float wrapped_floor = 0.05f;
 /// A hidden probe that stands in for visible ones counts so much per cosine above the tangent plane, at
@@ -61,6 +63,7 @@ inline constexpr std::array constants_of_shaders = {
     ShaderConstant{"MAX_NEAR", max_weights, true},
     ShaderConstant{"MAX_BLEND", blended_probes, true},
     ShaderConstant{"SIGHT_LIFT", sight_lift},
+    ShaderConstant{"SIGHT_BELOW", sight_below},
     ShaderConstant{"STILL_SHARE_OF_SKY", still_share_of_sky},
     ShaderConstant{"WRAPPED_FLOOR", wrapped_floor},
     ShaderConstant{"HIDDEN_SLOPE", hidden_slope},
