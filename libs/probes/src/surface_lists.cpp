@@ -21,6 +21,14 @@ namespace {
 /// Side of a cell, in spacings of points.
 constexpr float cell_share = 2.0f / 3;
 
+/// Samples of a part of a cell on surfaces that face one axis: one of each sheet of a few, a picture's front
+/// and back and the wall behind it.
+struct Layers {
+  static constexpr int most = 4;
+  std::array<std::uint32_t, most> samples;
+  int count = 0;
+};
+
 /// What one thread needs while it makes a cell's list.
 struct Work {
   struct Candidate {
@@ -31,7 +39,7 @@ struct Work {
     std::uint64_t outweighed = 0;      ///< squares with samples at which it does not count
   };
   SurfaceSamples samples;
-  std::vector<unsigned char> taken;
+  std::vector<Layers> taken;  ///< in each part of a cell, by axis
   std::vector<Candidate> candidates;
   std::vector<uvec4> list;
 };
@@ -164,13 +172,13 @@ class Preparation {
            glm::all(glm::lessThanEqual(corner + grid_->cell_size, first.end()));
   }
 
-  /// At most two points in each of the cell's 8³ parts for each direction that a surface may face, and in
+  /// A point of each sheet in each of the cell's 8³ parts for each direction that a surface may face, and in
   /// half a part around it: where a room ends a finger within the cell, all else in there may be of other
   /// rooms.
   void take_samples(std::size_t cell, const vec3& corner, Work& work) const {
     constexpr int parts = 8, along = parts + 2;
     work.samples.clear();
-    work.taken.assign(along * along * along * 3, 0);
+    work.taken.assign(along * along * along * 3, {});
     const float size = grid_->cell_size, part = size / parts;
     const vec3 low = corner - 0.5f * part, high = corner + size + 0.5f * part;
     for (std::size_t i = in_cells_.first[cell]; i < in_cells_.first[cell + 1]; ++i) {
@@ -181,12 +189,24 @@ class Preparation {
         const std::optional<vec3> x = middle_within(t, low, high);
         if (!x) return;
         const ivec3 at = glm::clamp(ivec3(glm::floor((*x - corner) / part)), -1, parts) + 1;
-        unsigned char& taken =
+        Layers& taken =
             work.taken[static_cast<std::size_t>(((at.z * along + at.y) * along + at.x) * 3 + axis)];
-        if (taken++ < 2) work.samples.add(*x, normal, glm::clamp((*x - corner) / size, 0.0f, 1.0f));
-        taken = std::min<unsigned char>(taken, 2);
+        if (taken.count == Layers::most || is_taken(taken, work.samples, *x, normal, part)) return;
+        taken.samples[static_cast<std::size_t>(taken.count++)] =
+            static_cast<std::uint32_t>(work.samples.size());
+        work.samples.add(*x, normal, glm::clamp((*x - corner) / size, 0.0f, 1.0f));
       });
     }
+  }
+
+  /// Whether a sample of this sheet is among them.
+  static bool is_taken(const Layers& taken, const SurfaceSamples& samples, const vec3& x, const vec3& normal,
+                       float part) {
+    constexpr float off_sheet = 0.1f, same = 0.9f;  // in parts; a cosine
+    return std::any_of(taken.samples.begin(), taken.samples.begin() + taken.count, [&](std::uint32_t i) {
+      return std::abs(glm::dot(x - samples.position(i), normal)) < off_sheet * part &&
+             std::abs(glm::dot(normal, samples.normal(i))) > same;
+    });
   }
 
   /// Those that light some sample, and are not outweighed there; asks the samples.

@@ -13,6 +13,9 @@ namespace {
 
 constexpr std::size_t asked = 48, any = 12, along = 4;
 constexpr float share_of_any = 0.6f;
+/// On a narrow strip most of what is near is none of its own: there a spacing is this share of the way to the
+/// second neighbour along it, at most so many times what any allow.
+constexpr float share_of_second = 0.8f, most_of_any = 4;
 /// No spacing is less than a quarter of that which one point of fifty does not reach: two at almost one place
 /// are no measure.
 constexpr std::size_t few = 50;
@@ -23,7 +26,7 @@ float spacing_at(const rays::SurfacePoint& point, std::span<const rays::SurfaceP
                  const geometry::NearestPoints& nearest) {
   std::array<geometry::Near, asked> near;
   const int count = nearest.find(point.position, near);
-  float sum = 0, most = 0;
+  float sum = 0, most = 0, second = 0;
   std::size_t others = 0, found = 0;
   for (int k = 0; k < count; ++k) {
     const geometry::Near& n = near[static_cast<std::size_t>(k)];
@@ -35,11 +38,12 @@ float spacing_at(const rays::SurfacePoint& point, std::span<const rays::SurfaceP
         off * off > fitted_off_plane * fitted_off_plane * n.distance2)
       continue;
     sum += std::sqrt(n.distance2);
-    ++found;
+    if (++found == 2) second = std::sqrt(n.distance2);
   }
   if (found == 0) return most;
   const float mean = sum / static_cast<float>(found);
-  return others < any ? mean : std::min(mean, most);
+  if (others < any || mean <= most) return mean;
+  return std::max(most, std::min({share_of_second * second, most_of_any * most, mean}));
 }
 
 }  // namespace

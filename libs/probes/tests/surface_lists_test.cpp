@@ -17,8 +17,8 @@ namespace {
 
 const vec3 low(-0.6f, 0.1f, -0.6f), high(0.6f, 1.2f, 0.6f);  // of the body
 
-/// Whether the way from a to b stays out of the body, by slabs.
-bool misses_body(const vec3& a, const vec3& b) {
+/// Whether the way from a to b stays out of a box, by slabs.
+bool misses(const vec3& low, const vec3& high, const vec3& a, const vec3& b) {
   float enter = 0, leave = 1;
   for (glm::length_t c = 0; c < 3; ++c) {
     const float d = b[c] - a[c];
@@ -31,6 +31,9 @@ bool misses_body(const vec3& a, const vec3& b) {
     leave = std::min(leave, std::max(t0, t1));
   }
   return enter >= leave;
+}
+bool misses_body(const vec3& a, const vec3& b) {
+  return misses(low, high, a, b);
 }
 
 scene::Scene body_on_a_floor() {
@@ -93,6 +96,31 @@ TEST(SurfaceLists, TheFloorBesideABodySeesNothingThroughIt) {
     const std::vector<vec3> places = lighting(surfaces, {x, 0, 0.1f});
     EXPECT_FALSE(places.empty());
     for (const vec3& p : places) EXPECT_EQ(p.x < 0, x < 0) << p.x << " from " << x;
+  }
+}
+
+TEST(SurfaceLists, APictureBeforeAWallHasItsOwnPoints) {
+  // Its front, its back and the wall lie in one part of a cell, by turns with a border between two of them.
+  for (int shift = 0; shift < 10; ++shift) {
+    const float height = 0.004f * static_cast<float>(shift);
+    const vec3 back(-2, height + 0.01f, -2), front(2, height + 0.025f, 2);
+    FittedPoints fitted;
+    for (int i = 0; i < 128; ++i) {
+      const float y = i < 64 ? height : front.y;
+      fitted.points.push_back(
+          {{0.5f * static_cast<float>(i % 8) - 1.75f, y, 0.5f * static_cast<float>(i / 8 % 8) - 1.75f},
+           {0, 1, 0}});
+      fitted.weights.emplace_back().add(0, 1);
+    }
+    scene::Scene scene = body_on_a_floor();
+    scene.meshes[0] = scene::make_quad({-3, height, -3}, {0, 0, 6}, {6, 0, 0});
+    scene.meshes[1] = scene::make_box(back, front);
+    for (scene::Mesh& mesh : scene.meshes) mesh.material = 0;
+    const auto sees = [&](const vec3& a, const vec3& b) { return misses(back, front, a, b); };
+    const SurfaceLists surfaces = prepare_fitted(scene, 0, fitted, sees).surfaces;
+    const std::vector<vec3> places = lighting(surfaces, {0.1f, front.y, 0.15f});
+    EXPECT_GE(places.size(), 4u) << shift;
+    for (const vec3& p : places) EXPECT_EQ(p.y, front.y) << shift;
   }
 }
 

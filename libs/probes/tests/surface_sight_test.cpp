@@ -36,6 +36,22 @@ TEST(SurfaceSpacings, AreThoseAlongASurfaceWhateverIsNearIt) {
   EXPECT_NEAR(surface_spacings(points)[middle_of(9)], 0.42f, 0.04f) << "six tenths of the twelfth's";
 }
 
+TEST(SurfaceSpacings, OfAStripReachAlongIt) {
+  // A window's frame, points a hand apart, between sashes and glass with many points each
+  std::vector<rays::SurfacePoint> points;
+  for (int i = 0; i < 9; ++i) points.push_back({{0, 0.15f * static_cast<float>(i), 0}, {0, 0, 1}});
+  for (const float side : {-1.0f, 1.0f})
+    for (int i = 0; i < 60; ++i)
+      points.push_back({{0.05f * side, 0.02f * static_cast<float>(i), 0.01f}, {side, 0, 0}});
+  EXPECT_NEAR(surface_spacings(points)[4], 0.8f * 0.15f, 1e-4f);
+  // Those of another room say nothing of it, however few its own are
+  points.resize(2);
+  points[1].position.y = 30;
+  points.push_back({{0, 31, 0}, {0, 0, 1}});
+  for (const rays::SurfacePoint& p : floor_grid(6, 0.5f)) points.push_back(p);
+  EXPECT_LT(surface_spacings(points)[0], 4);
+}
+
 TEST(SurfaceSpacings, FollowThePointsFromPlaceToPlace) {
   std::vector<rays::SurfacePoint> points = floor_grid(11, 0.1f);
   for (rays::SurfacePoint p : floor_grid(11, 8)) points.push_back({p.position + vec3(100, 0, 0), p.normal});
