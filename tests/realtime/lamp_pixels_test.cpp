@@ -107,6 +107,39 @@ TEST_F(LampPixels, OfASunThatRunsAlongAWallAreDarkUnderItsEaves) {
   }
 }
 
+TEST_F(LampPixels, OfASunAreDarkInCornersThatItsMapDoesNotTell) {
+  // A texel's width beside a fin: what a map of this size cannot tell from the wall, the picture shows.
+  for (const float radius : {0.0f, 0.0046f}) {
+    scene::Scene scene = stage(matte({0.9f, 0.3f, 0.5f}));
+    add_mesh(scene, scene::make_box({1, 0, -2}, {1.1f, 2.5f, -1.7f}), 0);
+    scene::Light sun = stage_sun().light;
+    sun.angular_radius = radius;
+    add_stage_lamp(scene, sun);
+    const vec3 toward_sun = glm::normalize(vec3(1, 0.2f, 0.8f));
+    scene.nodes.back().local.rotation = glm::quatLookAt(-toward_sun, vec3(0, 0, 1));
+    const trace::TransportScene source(scene);
+    const scene::CameraPose pose = scene::camera_pose(scene, "");
+    const PixelPoints points(source, pose, {320, 192});
+    realtime::RendererParams params;
+    params.sun_map_size = 128;
+    realtime::Renderer renderer(gl(), scene, params);
+    realtime::FrameSettings settings;
+    settings.view = realtime::View::direct;
+    renderer.draw(pose, settings, {.width = 320, .height = 192});
+    const image::Image drawn = renderer.read_back();
+    int beside = 0, lit = 0;
+    for (const PixelPoint& p : points.pixels) {
+      const vec3& x = p.point.position;
+      if (p.hit.escaped() || p.point.normal.z < 0.9f || std::abs(x.z + 2) > 1e-3f) continue;
+      if (x.x < 0.75f || x.x > 1 || x.y > 2) continue;
+      const int i = static_cast<int>(points.index(p));
+      ++beside, lit += max_component(drawn.rgb(i % 320, i / 320)) > 0;
+    }
+    EXPECT_GT(beside, 200);
+    EXPECT_EQ(lit, 0) << "of a sun with a radius of " << radius;
+  }
+}
+
 TEST_F(LampPixels, WhatStandsWithinAnSphlShadowsNothing) {
   const StageLamp lamp = shining_sphl();
   const auto scene_with = [&](float radius, bool box) {

@@ -20,6 +20,14 @@
 #ifdef DISC
 #include "disc.glsl"
 #endif
+#if defined(SUN) || defined(DISC)
+#include "contact.glsl"
+// What a map tells for sure stands so many texels away.
+const float CONTACT_TEXELS = 4;
+float sun_contact(Surface s, vec3 wi, SunMap map) {
+  return contact_visibility(s, wi, CONTACT_TEXELS * 2 / (float(frame.maps.w - 2) * map.right.w));
+}
+#endif
 
 layout(location = 0) out vec4 color;
 
@@ -91,6 +99,7 @@ void main() {
   float cosine = dot(s.geometric_normal, wi) > 0 ? max(dot(s.normal, wi), 0.0) : 0;
   SunMap map = sun_maps[cascade_of(emitter.items.y, s.position)];
   vec3 passed = parallel_visibility(map, s.position, s.geometric_normal) * parallel_filter(map, s.position);
+  if (cosine * max_component(passed) > 0) passed *= sun_contact(s, wi, map);
   vec3 e = emitter.light.rgb * cosine;
   store(passed * e * reflected(s, wi), luminance(e), luminance(e * passed));
 }
@@ -111,7 +120,9 @@ void main() {
     total += e;
     if (e <= 0 || dot(s.geometric_normal, wi) <= -sine) continue;
     e *= disc_visibility(i, sine, s.position, s.geometric_normal);
-    vec3 passed = parallel_filter(sun_maps[cascade_of(int(emitter.samples[i].normal.w), s.position)], s.position);
+    SunMap map = sun_maps[cascade_of(int(emitter.samples[i].normal.w), s.position)];
+    if (e > 0) e *= sun_contact(s, wi, map);
+    vec3 passed = parallel_filter(map, s.position);
     lit += e * luminance(passed);
     // Half sunk, its middle is that of what is left above the horizon
     sum += e * passed * reflected(s, normalize(wi + max(0.5 * (sine - cosine), 0.0) * s.normal));

@@ -36,7 +36,8 @@ vec3 position_at(vec2 pixel, float depth) {
   return frame.camera_position.xyz + (orthographic() ? plane : plane * depth) + depth * frame.camera_forward.xyz;
 }
 
-// Where nothing stands the result means nothing.
+// Where nothing stands the results mean nothing.
+vec3 geometric_normal_at(ivec2 at) { return oct_decode(unpackSnorm2x16(texelFetch(gbuffer0, at, 0).y)); }
 Surface read_surface(ivec2 at) {
   Surface s;
   vec2 pixel = vec2(at) + 0.5;
