@@ -31,8 +31,7 @@ std::filesystem::path checkpoint_of(const BakeOptions& o) {
 void run_full_bake(const BakeOptions& o, BakeResult& result, BakeWatcher& watcher, const Control& control) {
   const bool by_cycles = o.renderer == Renderer::cycles;
   if (by_cycles && o.farm.any())
-    throw Error("--renderer cycles", "is not for a farm",
-                "leave out --broker and --local, or start its workers with --renderer cycles");
+    throw Error("--renderer cycles", "is not for a farm", "leave out --broker and --local");
   const std::optional<FarmSession> session = farm_session(o.farm);
   const scene::Scene scene = load_lit_scene(o.scene, watcher.files);
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);

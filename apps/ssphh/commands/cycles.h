@@ -1,5 +1,5 @@
 #pragma once
-/// Blender's Cycles beside our path tracer: as `truth`, `bake` and `worker` run it.
+/// Blender's Cycles beside our path tracer: as `truth` and `bake` run it.
 
 #include <chrono>
 #include <filesystem>
@@ -41,7 +41,8 @@ void run_blender(const std::filesystem::path& script, std::vector<std::string> a
 std::string blender_seed(std::uint64_t seed);
 
 /// The light that arrives at a point, by Cycles: a cube of pictures for each light group, or for each ghost
-/// sphere. What is no light it asks `ours`, as it does for the names of light groups.
+/// sphere. What is no light it asks `ours`, as it does for the names of light groups. Calls share the work
+/// folder, so they come one at a time.
 class CyclesSource : public rays::RadianceSource {
  public:
   /// Keeps references to both. Throws Error as require_blender() does.
