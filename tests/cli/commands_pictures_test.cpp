@@ -173,7 +173,7 @@ TEST_F(RoomsInPictures, TruthIsTheMeanOfTwoHalvesWithSeedsOfTheirOwn) {
   EXPECT_GT(result.noise.mse, 0);
   EXPECT_TRUE(result.differences.empty());
 
-  options.renderer = TruthRenderer::cycles, options.farm.local = 1;
+  options.renderer = Renderer::cycles, options.farm.local = 1;
   EXPECT_THAT(message_of([&] { run_truth(options); }), HasSubstr("--renderer cycles: is not for a farm"));
 }
 

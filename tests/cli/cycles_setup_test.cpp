@@ -11,36 +11,17 @@
 #include <ssphh/core/file.h>
 #include <ssphh/image/io.h>
 
+#include "stand_in_programs.h"
 #include "temp_dir.h"
 #include "tool_checks.h"
 
 namespace ssphh {
 namespace {
 
+using test::Path;
 using test::TempDir;
+using test::write_script;
 using testing::HasSubstr;
-
-/// PATH for as long as it lives.
-class Path {
- public:
-  explicit Path(const std::string& value) {
-    const char* path = std::getenv("PATH");
-    before_ = path ? path : "";
-    ::setenv("PATH", value.c_str(), 1);
-  }
-  ~Path() { ::setenv("PATH", before_.c_str(), 1); }
-  Path(const Path&) = delete;
-  Path& operator=(const Path&) = delete;
-
- private:
-  std::string before_;
-};
-
-void write_script(const std::filesystem::path& file, const std::string& text) {
-  std::filesystem::create_directories(file.parent_path());
-  write_file(file, "#!/bin/sh\n" + text);
-  std::filesystem::permissions(file, std::filesystem::perms::owner_all);
-}
 
 /// A Blender that needs the numpy of the first python3 on PATH, as a distribution's does, and "renders" by
 /// copying the picture of its seed. It notes how it was called.

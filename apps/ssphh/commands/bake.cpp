@@ -39,6 +39,12 @@ void add_path_options(const Command& paths, BakeOptions& options, BakeUses& uses
           .range(0, 65535),
       paths.option("--passes", params.path.passes, "Passes of --spp samples each").range(1, 1 << 24),
       paths.option("--spp", params.path.spp, "Samples per texel and pass").range(1, 1 << 24)};
+  uses.of_paths.push_back(paths.choice(
+      "--renderer", options.renderer,
+      "Whose paths: path, ours; cycles, those of Blender, which must be installed, with files and "
+      "log in OUTPUT.cycles"));
+  paths.option("--time-limit", options.time_limit, "Seconds that each run of Blender may take")
+      .range(1, 1000000);
   paths.choice("--gen", params.gen,
                "full: all bounces; local: direct light only (--max-depth 1), for HIER to add the rest");
   paths.flag(
@@ -204,7 +210,7 @@ void add_bake_command(Command app, Context& context) {
         "--operator",  "--face",         "--max-depth",  "--passes",      "--spp",           "--gen",
         "--neighbors", "--threshold",    "--viz-source", "--viz-paths",   "--viz-max-depth", "--viz-passes",
         "--viz-spp",   "--viz-transfer", "--directions", "--surfel-size", "--link-rays",     "--records",
-        "--fit",       "--quality",      "--max-memory"})
+        "--fit",       "--quality",      "--max-memory", "--renderer"})
     uses->not_of_update.push_back(command[name]);
   add_farm_options(command, o.farm);
   command.footer(

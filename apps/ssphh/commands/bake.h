@@ -15,6 +15,7 @@
 #include <ssphh/trace/scene_geometry.h>
 
 #include "commands/bake_only.h"
+#include "commands/cycles.h"
 #include "options/farm_options.h"
 #include "options/place_options.h"
 #include "options/scene_options.h"
@@ -27,7 +28,10 @@ struct BakeOptions : pipeline::BakeSettings {
   PlaceOptions place;
   FarmChoice farm;     ///< that does GEN and VIZ by paths, if there is any
   std::string output;  ///< probe file to write: .sphl or .sphl.json; OUTPUT.checkpoint beside it
-  bool resume = true;  ///< go on where OUTPUT.checkpoint of an interrupted bake ends
+  Renderer renderer = Renderer::path;  ///< that does GEN and VIZ by paths; Cycles: without a farm
+  int threads = 0;                     ///< of Cycles; 0: all
+  int time_limit = 3600;               ///< seconds that each run of Cycles may take
+  bool resume = true;                  ///< go on where OUTPUT.checkpoint of an interrupted bake ends
   /// Probe file of an earlier bake, of which is kept what the scene's changes do not reach; empty: none. The
   /// parameters of the bake are that file's.
   std::string update;

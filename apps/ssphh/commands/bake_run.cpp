@@ -22,19 +22,35 @@ double viz_seconds(const BakeResult& r) {
   return r.paths.viz_seconds + r.transport.viz_seconds;
 }
 
+/// Of Cycles within its folder, where no bake by our paths finds it.
+std::filesystem::path checkpoint_of(const BakeOptions& o) {
+  return o.output + (o.renderer == Renderer::cycles ? ".cycles/checkpoint" : ".checkpoint");
+}
+
 /// Where nothing is taken from an earlier bake.
 void run_full_bake(const BakeOptions& o, BakeResult& result, BakeWatcher& watcher, const Control& control) {
+  const bool by_cycles = o.renderer == Renderer::cycles;
+  if (by_cycles && o.farm.any())
+    throw Error("--renderer cycles", "is not for a farm", "leave out --broker and --local");
   const std::optional<FarmSession> session = farm_session(o.farm);
   const scene::Scene scene = load_lit_scene(o.scene, watcher.files);
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
-  std::optional<farm::FarmCrew> crew;
-  if (session) crew.emplace(session->options(), scene, o.scene.time);
-  const std::filesystem::path checkpoint = o.output + ".checkpoint";
+  std::optional<farm::FarmCrew> farm;
+  if (session) farm.emplace(session->options(), scene, o.scene.time);
+  std::optional<CyclesCrew> cycles;
+  pipeline::BakeSettings settings = o;
+  if (by_cycles) {
+    cycles.emplace(geometry, scene, o.scene.time,
+                   CyclesOptions{o.output + ".cycles", o.threads, std::chrono::seconds(o.time_limit)});
+    if (!settings.records) settings.records = 0;  // they would hold our light
+  }
+  const std::filesystem::path checkpoint = checkpoint_of(o);
   if (!o.resume) std::filesystem::remove(checkpoint);
   pipeline::SceneBake& baked = result;
-  baked = pipeline::bake_scene(geometry, scene, o.scene.time, o.place, o, checkpoint, control,
-                               crew ? &*crew : nullptr);
-  if (crew) result.farm = crew->report();
+  bake::BakeCrew* const crew = farm ? static_cast<bake::BakeCrew*>(&*farm) : cycles ? &*cycles : nullptr;
+  baked = pipeline::bake_scene(geometry, scene, o.scene.time, o.place, settings, checkpoint, control, crew);
+  if (farm) result.farm = farm->report();
+  if (by_cycles) result.set.baseline.reset();  // an update would go on with our light
   if (watcher.see) watcher.see({geometry, scene, result.set, true});
 }
 
@@ -59,7 +75,7 @@ BakeResult run_bake_watched(const BakeOptions& options, BakeWatcher& watcher, co
     run_bake_update(options, result, watcher, control);
   }
   probes::write_probe_file(result.set, options.output);
-  std::filesystem::remove(options.output + ".checkpoint");
+  std::filesystem::remove(checkpoint_of(options));
   result.geometry_builds = builds.count();
   return result;
 }

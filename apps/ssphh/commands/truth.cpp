@@ -1,7 +1,6 @@
 #include "commands/truth.h"
 
 #include <chrono>
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 
@@ -12,7 +11,6 @@
 #include <ssphh/image/io.h>
 #include <ssphh/trace/path_tracer.h>
 
-#include "commands/child_process.h"
 #include "commands/command.h"
 #include "results/json_values.h"
 #include "results/pictures.h"
@@ -55,13 +53,7 @@ Halves render_path(const TruthOptions& o, const scene::Scene& scene,
 }
 
 Halves render_cycles(const TruthOptions& o, const scene::Scene& scene, const Control& control) {
-  if (find_program("blender").empty()) {
-    const char* path = std::getenv("PATH");
-    throw Error(
-        "--renderer cycles",
-        fmt::format("there is no `blender` in the folders of PATH, {}", path ? path : "(which is not set)"),
-        "scripts/install-deps --with-blender installs it");
-  }
+  require_blender();
   const std::filesystem::path work = o.work.empty() ? o.output + ".cycles" : o.work;
   const scene_io::ExportReport report =
       scene_io::export_cycles(scene, export_settings(o.picture, scene), work);
@@ -70,23 +62,10 @@ Halves render_cycles(const TruthOptions& o, const scene::Scene& scene, const Con
   const auto half = [&](std::uint64_t seed, const std::string& name) {
     const std::filesystem::path picture = work / name;
     std::filesystem::remove(picture);
-    // Cycles' seed is a signed 32-bit number.
-    std::vector<std::string> command = {"blender",
-                                        "--background",
-                                        "--factory-startup",
-                                        "--python",
-                                        report.files.front().string(),
-                                        "--",
-                                        "--output",
-                                        picture.string(),
-                                        "--seed",
-                                        std::to_string(seed % 0x7fffffff),
-                                        "--spp",
-                                        std::to_string(o.picture.spp / 2),
-                                        "--projection",
-                                        std::string(name_of(o.projection))};
-    if (o.threads > 0) command.insert(command.end(), {"--threads", std::to_string(o.threads)});
-    run_program(command, log, std::chrono::seconds(o.time_limit), control);
+    run_blender(report.files.front(),
+                {"--output", picture.string(), "--seed", blender_seed(seed), "--spp",
+                 std::to_string(o.picture.spp / 2), "--projection", std::string(name_of(o.projection))},
+                {work, o.threads, std::chrono::seconds(o.time_limit)}, control);
     if (!std::filesystem::exists(picture)) {
       throw Error("blender", fmt::format("wrote no picture; {} says why", log.string()));
     }
@@ -124,14 +103,14 @@ void find_mean(TruthResult& result) {
 }  // namespace
 
 TruthResult run_truth(const TruthOptions& o, const Control& control) {
-  if (o.farm.any() && o.renderer != TruthRenderer::path)
+  if (o.farm.any() && o.renderer != Renderer::path)
     throw Error(fmt::format("--renderer {}", name_of(o.renderer)), "is not for a farm",
                 "leave out --broker and --local");
   const std::optional<FarmSession> session = farm_session(o.farm);
   const scene::Scene scene = load_lit_scene(o.picture.scene);
   const Stopwatch watch;
-  Halves halves = o.renderer == TruthRenderer::cycles ? render_cycles(o, scene, control)
-                                                      : render_path(o, scene, session, control);
+  Halves halves = o.renderer == Renderer::cycles ? render_cycles(o, scene, control)
+                                                 : render_path(o, scene, session, control);
   TruthResult result;
   result.seconds = watch.seconds();
   result.first = std::move(halves.first), result.second = std::move(halves.second);

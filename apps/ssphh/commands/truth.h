@@ -6,27 +6,20 @@
 #include <vector>
 
 #include <ssphh/core/control.h>
-#include <ssphh/core/enum_names.h>
 #include <ssphh/core/json.h>
 #include <ssphh/image/image.h>
 #include <ssphh/metrics/compare.h>
 
+#include "commands/cycles.h"
 #include "options/farm_options.h"
 #include "options/picture_options.h"
 
 namespace ssphh::app {
 
-/// Our path tracer, or Blender's.
-enum class TruthRenderer { path, cycles };
-constexpr auto enum_table(TruthRenderer) {
-  using enum TruthRenderer;
-  return std::to_array<EnumName<TruthRenderer>>({{path, "path"}, {cycles, "cycles"}});
-}
-
 struct TruthOptions {
   PictureOptions picture;  ///< its samples are halved, and an odd one is left out
   FarmChoice farm;         ///< that traces, if there is any: for renderer path
-  TruthRenderer renderer = TruthRenderer::path;
+  Renderer renderer = Renderer::path;
   PictureProjection projection = PictureProjection::camera;  ///< cube: by renderer path alone
   std::uint64_t seed = 0;
   int threads = 0;                ///< of Cycles; 0: all

@@ -159,7 +159,7 @@ TEST(SceneMessages, OfQuestions) {
   EXPECT_EQ(message_of([] { make_builtin("x"); }),
             "builtin:x: no such built-in scene (there are: cornell, furnace, box, two-rooms, court, "
             "gallery1, gallery2, "
-            "gallery3, house, ajar, tunnel, torch, car, town, random)");
+            "gallery3, house, ajar, tunnel, torch, car, fishtank, town, random)");
   scene = Scene();
   EXPECT_EQ(message_of([&] { find_camera(scene, "c"); }),
             "scene: has no camera \"c\" (it has no cameras; leave the name out for a view of the whole)");

@@ -17,6 +17,7 @@
 #include "overlay_paths.h"
 #include "read_emission.h"
 #include "read_light_modes.h"
+#include "read_tone_curves.h"
 
 namespace ssphh::scene_io {
 namespace {
@@ -310,7 +311,7 @@ void apply(Scene& scene, std::string_view text, const std::filesystem::path& pat
   const json::Value json = json::parse(text, file);
   const json::Cursor root(json, file);
   root.only({"$schema", "comment", "scene", "name", "unit", "origin", "overlays", "without", "cameras",
-             "lights", "sphls", "environment", "environment_turn_degrees", "sun_sky", "materials",
+             "lights", "sphls", "environment", "environment_turn_degrees", "sun_sky", "materials", "textures",
              "light_factors", "light_modes"});
   if (const auto overlays = root.find("overlays")) {
     if (below == max_overlays_below)
@@ -334,6 +335,8 @@ void apply(Scene& scene, std::string_view text, const std::filesystem::path& pat
   // The sun of a sky below goes, not one that stands among the lights here.
   const bool sunless = sun_sky && !(sun_sky->boolean_or("sun", true) && sun_sky->boolean_or("lamp", true));
   if (sunless) set_sun_sky(scene, *sun_sky);
+  for_each_entry(scene, root, "textures",
+                 [](Scene& s, const json::Cursor& entry, std::size_t) { read_tone_curve(s, entry); });
   for_each_entry(scene, root, "materials", override_material);
   for_each_entry(scene, root, "cameras", read_camera);
   for_each_entry(scene, root, "lights", [&](Scene& s, const json::Cursor& entry, std::size_t number) {

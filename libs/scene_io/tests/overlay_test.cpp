@@ -7,6 +7,7 @@
 #include <ssphh/core/file.h>
 #include <ssphh/core/log.h>
 #include <ssphh/image/io.h>
+#include <ssphh/image/transfer.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/scene_io/load.h>
 #include <ssphh/scene_io/overlay.h>
@@ -20,6 +21,7 @@ namespace ssphh::scene_io {
 namespace {
 
 using scene::Scene;
+using testing::_;
 using testing::HasSubstr;
 
 Scene plain_scene() {
@@ -29,6 +31,8 @@ Scene plain_scene() {
   scene.nodes[0].local.translation = {10, 0, 0};
   scene.materials.resize(1);
   scene.materials[0].name = "clay";
+  scene.textures.push_back({"paint", 2, 1, {0, 128, 255, 77, 188, 188, 188, 255}});
+  scene.materials[0].base_color_texture.texture = 0;
   return scene;
 }
 
@@ -53,6 +57,7 @@ constexpr const char* rich_overlay = R"({
   "without": {"lights": ["nobody"]}, "light_factors": {"g": [1, 1, 1]}, "environment_turn_degrees": 0,
   "sphls": [{"position": [1, 2, 3], "radius": 0.2}, {"name": "on-arm", "position": [0, 1, 0], "node": "arm"}],
   "environment": {"color": [1, 2, 3], "intensity": 2, "rotation_degrees": 180},
+  "textures": [{"name": "paint", "gamma": 2, "gain": 0.5, "offset": 0.01}],
   "materials": [{"name": "clay", "base_color": [0.1, 0.2, 0.3], "diffuse_roughness": -0.5, "emission": [1, 0, 0]}]
 })";
 
@@ -236,6 +241,35 @@ TEST(Overlay, LiesOnOthersAndLeavesOutWhatTheyHave) {
   EXPECT_EQ(scene.cameras[0].yheight, 4);
   EXPECT_EQ(scene.environment->color, vec3(3));
   EXPECT_FLOAT_EQ(scene.environment->rotation, pi / 2);
+}
+
+TEST(Overlay, PutsToneCurvesIntoTheTexturesOfAName) {
+  Scene scene = plain_scene();
+  scene.textures.push_back({"other", 1, 1, {10, 20, 30, 40}});
+  apply_overlay(scene, R"({"textures": [{"name": "paint", "gamma": 2, "gain": 0.5, "offset": 0.01}]})",
+                "x.json");
+  // 128 is 0.2159 of linear light: half of its square is 0.0233
+  EXPECT_THAT(scene.textures[0].rgba, testing::ElementsAre(25, image::linear_to_srgb8(0.0333f),
+                                                           image::linear_to_srgb8(0.51f), 77, _, _, _, 255));
+  EXPECT_THAT(scene.textures[1].rgba, testing::ElementsAre(10, 20, 30, 40));
+  scene = plain_scene();
+  apply_overlay(scene, R"({"textures": [{"name": "paint"}]})", "x.json");
+  EXPECT_EQ(scene.textures[0].rgba, plain_scene().textures[0].rgba);
+}
+
+TEST(Overlay, RefusesToneCurvesOfTexturesThatAreNotOrAreNoColours) {
+  EXPECT_THAT(overlay_error(R"({"textures": [{"name": "x", "gamma": 2}]})"),
+              HasSubstr("no texture \"x\" (it has: paint)"));
+  EXPECT_THAT(overlay_error(R"({"textures": [{"name": "paint", "gamma": 0}]})"),
+              HasSubstr("textures[0].gamma"));
+  Scene scene = plain_scene();
+  scene.materials[0].normal_texture.texture = 0;
+  try {
+    apply_overlay(scene, R"({"textures": [{"name": "paint", "gain": 2}]})", "x.json");
+    FAIL() << "normals have no tones";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("holds no colours"));
+  }
 }
 
 TEST(Overlay, RefusesChainsAndGroupsThatAreNot) {

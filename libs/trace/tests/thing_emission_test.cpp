@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <ssphh/core/sphere.h>
+#include <ssphh/scene/builtin.h>
 #include <ssphh/scene/primitives.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/scene/thing_alone.h>
@@ -114,6 +115,50 @@ scene::Scene lantern_in_room(int& node, float& radius) {
   return s;
 }
 
+/// What the thing sends out, at `node` in place of all that glows there.
+scene::Scene stand_in_for(const scene::Scene& lit, const ThingEmission& seen, int node) {
+  scene::Scene s = lit;
+  for (scene::Material& material : s.materials) material.emission = vec3(0);
+  scene::Light& light = s.lights.emplace_back();
+  light.type = scene::LightType::sphl, light.radius = seen.radius;
+  light.emission.frames = {seen.intensity};
+  light.node = add_node(s, "light", {seen.center, quat(1, 0, 0, 0), vec3(1)}, node);
+  return s;
+}
+
+/// Points of the inside of a box, in all directions from `center`.
+std::vector<rays::SurfacePoint> points_of_walls(const vec3& center, const vec3& min, const vec3& max) {
+  std::vector<rays::SurfacePoint> points;
+  for (int i = 0; i < 200; ++i) {
+    const vec3 d = spherical_fibonacci(i, 200);
+    vec3 ways;
+    for (int c = 0; c < 3; ++c)
+      ways[c] =
+          ((d[c] > 0 ? max : min)[c] - center[c]) / std::copysign(std::max(std::abs(d[c]), 1e-6f), d[c]);
+    const int axis = ways.x < ways.y ? (ways.x < ways.z ? 0 : 2) : (ways.y < ways.z ? 1 : 2);
+    vec3 normal(0);
+    normal[axis] = d[axis] > 0 ? -1.0f : 1.0f;
+    points.push_back({center + ways[axis] * d, normal});
+  }
+  return points;
+}
+
+/// Of the SPHL's irradiance: r.m.s. error over r.m.s., the noise of the thing's taken off, and the mean's
+/// error.
+struct Difference {
+  dvec3 rms{0}, mean{0};
+};
+
+Difference difference(const std::vector<rays::IrradianceEstimate>& thing,
+                      const std::vector<rays::IrradianceEstimate>& sphl) {
+  dvec3 sum(0), sum2(0), less(0), less2(0);
+  for (std::size_t i = 0; i < thing.size(); ++i) {
+    const dvec3 a(thing[i].direct + thing[i].indirect), b(sphl[i].direct + sphl[i].indirect);
+    sum += a, sum2 += a * a, less += b - a, less2 += (b - a) * (b - a) - dvec3(thing[i].indirect_variance);
+  }
+  return {glm::sqrt(glm::max(less2, 0.0) / sum2), less / sum};
+}
+
 TEST(ThingEmission, LightsWallsAsTheThingItselfBeyondTwoOfItsRadii) {
   int node = 0;
   float radius = 0;
@@ -121,33 +166,12 @@ TEST(ThingEmission, LightsWallsAsTheThingItselfBeyondTwoOfItsRadii) {
   // Paths start anywhere within a pixel: fewer pixels are as true, and noisier
   const ThingEmission seen = thing_emission(lit, node, 0, {.image_size = 16});
   EXPECT_LT(seen.radius, radius);
-  scene::Scene stand_in = lit;
-  for (scene::Material& material : stand_in.materials) material.emission = vec3(0);
-  scene::Light& light = stand_in.lights.emplace_back();
-  light.type = scene::LightType::sphl, light.radius = seen.radius;
-  light.emission.frames = {seen.intensity};
-  light.node = add_node(stand_in, "light", {seen.center, quat(1, 0, 0, 0), vec3(1)}, node);
-
-  // Points of the walls
-  std::vector<rays::SurfacePoint> points;
+  const scene::Scene stand_in = stand_in_for(lit, seen, node);
   const vec3 center(scene::world_matrices(lit)[static_cast<std::size_t>(node)] * vec4(seen.center, 1));
-  float nearest = 1e9f;
-  for (int i = 0; i < 200; ++i) {
-    const vec3 d = spherical_fibonacci(i, 200), half(2, 1.5f, 2);
-    vec3 ways;
-    for (int c = 0; c < 3; ++c)
-      ways[c] =
-          (std::copysign(half[c], d[c]) - center[c]) / std::copysign(std::max(std::abs(d[c]), 1e-6f), d[c]);
-    const int axis = ways.x < ways.y ? (ways.x < ways.z ? 0 : 2) : (ways.y < ways.z ? 1 : 2);
-    vec3 normal(0);
-    normal[axis] = d[axis] > 0 ? -1.0f : 1.0f;
-    points.push_back({center + ways[axis] * d, normal});
-    nearest = std::min(nearest, ways[axis]);
-  }
-  EXPECT_GT(nearest, 2 * radius);
+  const auto points = points_of_walls(center, {-2, -1.5f, -2}, {2, 1.5f, 2});
+  for (const rays::SurfacePoint& point : points) EXPECT_GT(glm::distance(point.position, center), 2 * radius);
   rays::PathParams path{.max_depth = 8, .spp = 1024};
-  // Walls that reflect nothing: what arrives left the thing, perhaps by its ball. The noise of that is taken
-  // off.
+  // Walls that reflect nothing: what arrives left the thing, perhaps by its ball.
   const auto with_walls = [](scene::Scene s, const vec3& albedo) {
     s.materials[0].base_color = albedo;
     return s;
@@ -155,24 +179,84 @@ TEST(ThingEmission, LightsWallsAsTheThingItselfBeyondTwoOfItsRadii) {
   const scene::Scene dark = with_walls(lit, vec3(0)), dark_stand_in = with_walls(stand_in, vec3(0));
   auto thing = PathTracer(dark).surface_irradiance(points, path, {});
   auto sphl = PathTracer(dark_stand_in).surface_irradiance(points, path, {});
-  dvec3 sum(0), sum2(0), difference(0), difference2(0);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const dvec3 a(thing[i].direct + thing[i].indirect), b(sphl[i].direct);
-    sum += a, sum2 += a * a, difference += b - a,
-        difference2 += (b - a) * (b - a) - dvec3(thing[i].indirect_variance);
-  }
+  const Difference alone = difference(thing, sphl);
   for (int c = 0; c < 3; ++c) {
-    EXPECT_LT(std::sqrt(difference2[c] / sum2[c]), 0.05) << c;
-    EXPECT_LT(std::abs(difference[c] / sum[c]), 0.02) << c;
+    EXPECT_LT(alone.rms[c], 0.05) << c;
+    EXPECT_LT(std::abs(alone.mean[c]), 0.02) << c;
   }
   // All of it, bounces from the walls and from the thing, which stands there dark, included
   path.spp = 256;
   thing = PathTracer(lit).surface_irradiance(points, path, {});
   sphl = PathTracer(stand_in).surface_irradiance(points, path, {});
-  dvec3 all(0), all_sphl(0);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    all += dvec3(thing[i].direct + thing[i].indirect), all_sphl += dvec3(sphl[i].direct + sphl[i].indirect);
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(all_sphl[c] / all[c], 1, 0.05) << c;
+  const Difference all = difference(thing, sphl);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(all.mean[c], 0, 0.05) << c;
+}
+
+/// Irradiance of `point` by what is within a ball, from a picture of it: paths that set out for it.
+dvec3 irradiance_by_view(const PathTracer& tracer, const rays::SurfacePoint& point, const vec3& center,
+                         float radius, const rays::PathParams& path) {
+  constexpr int size = 16;
+  const vec3 to = glm::normalize(center - point.position);
+  const float half = radius / glm::distance(center, point.position),
+              slope = half / std::sqrt(1 - half * half);
+  const Frame frame = Frame::around(-to);
+  RenderParams view;
+  view.width = view.height = size;
+  view.camera.camera.yfov = 2 * std::atan(slope);
+  view.camera.world =
+      mat4(vec4(frame.x, 0), vec4(frame.y, 0), vec4(-to, 0), vec4(point.position + 1e-3f * point.normal, 1));
+  view.path = path;
+  RenderState state;
+  tracer.render(view, state, {});
+  const image::Image picture = resolve(state.color, state.passes_done);
+  dvec3 sum(0);
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const vec2 at = slope * ((vec2(x, y) + 0.5f) * (2.0f / size) - 1.0f);
+      const vec3 ray = to + at.x * frame.x - at.y * frame.y;
+      const float length = glm::length(ray), pixel = 4 * slope * slope / (size * size);
+      sum += dvec3(picture.rgb(x, y)) *
+             static_cast<double>(pixel * glm::dot(ray, point.normal) / std::pow(length, 4.0f));
+    }
+  }
+  return sum;
+}
+
+// Caustics: no shadow ray goes through water, so all of the tank's light is found by chance, and as an SPHL's
+// it has no noise.
+TEST(ThingEmission, WavesProjectTheirLightOntoWallsAsTheirSphlDoes) {
+  scene::Scene room = scene::make_builtin("fishtank");
+  const int tank = scene::find_node(room, "tank");
+  for (scene::Material& m : room.materials)
+    if (m.name == "plaster" || m.name == "wood" || m.name == "red") m.base_color = vec3(0);
+  constexpr int depth = 12;
+  const auto compared = [&](float time, float sphl_time) {
+    const ThingEmission seen =
+        thing_emission(room, tank, sphl_time, {.image_size = 16, .path = {.max_depth = depth, .spp = 4}});
+    const scene::Scene stand_in = stand_in_for(room, seen, tank);
+    const vec3 center(scene::world_matrices(room, time)[static_cast<std::size_t>(tank)] *
+                      vec4(seen.center, 1));
+    auto points = points_of_walls(center, {-2, 0, -2}, {2, 2.6f, 2});
+    std::erase_if(
+        points, [&](const rays::SurfacePoint& p) { return p.position.y < center.y; });  // the stand's shadow
+    for (const rays::SurfacePoint& point : points)
+      EXPECT_GT(glm::distance(point.position, center), 2 * seen.radius);
+    const auto sphl = PathTracer(stand_in, time).surface_irradiance(points, {.max_depth = 1, .spp = 1}, {});
+    std::vector<rays::IrradianceEstimate> thing(points.size());
+    const PathTracer tracer(room, time);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      thing[i].direct = vec3(irradiance_by_view(tracer, points[i], center, seen.radius,
+                                                {.max_depth = depth, .spp = 8, .seed = i}));
+    return difference(thing, sphl);
+  };
+  for (const float time : {0.0f, 1.0f}) {
+    const Difference less = compared(time, time);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_LT(less.rms[c], 0.05) << c;
+      EXPECT_LT(std::abs(less.mean[c]), 0.02) << c;
+    }
+  }
+  EXPECT_GT(compared(0, 1).rms.y, 0.05) << "waves move it";
 }
 
 TEST(ThingEmission, FollowsWhatMovesAndTurns) {

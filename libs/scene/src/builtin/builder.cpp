@@ -64,6 +64,12 @@ int Builder::pane(const std::string& name, const vec3& tint) {
   return add_material(thin_glass(name, tint));
 }
 
+int Builder::body(const std::string& name, const vec3& color, float distance, float ior) {
+  Material m = solid_glass(name, color, distance);
+  m.ior = ior;
+  return add_material(std::move(m));
+}
+
 int Builder::node(const std::string& name, const Transform& local, int parent) {
   Node n;
   n.name = name;

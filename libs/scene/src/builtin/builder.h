@@ -19,6 +19,8 @@ class Builder {
   int metal(const std::string& name, const vec3& f0, float roughness);
   /// thin_glass().
   int pane(const std::string& name, const vec3& tint);
+  /// solid_glass() of index `ior`.
+  int body(const std::string& name, const vec3& color, float distance, float ior);
 
   /// On `parent`, or on what `stand_on` named.
   int node(const std::string& name, const Transform& local = {}, int parent = -1);

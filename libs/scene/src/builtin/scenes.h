@@ -18,6 +18,7 @@ Scene make_ajar();
 Scene make_tunnel();
 Scene make_torch();
 Scene make_car();
+Scene make_fishtank();
 Scene make_town(int houses);
 Scene make_random(int seed);
 

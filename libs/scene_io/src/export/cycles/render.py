@@ -2,11 +2,15 @@
 
   blender --background --factory-startup --python render.py -- --output picture.exr [--seed N] [--spp N] [--threads N]
           [--projection camera|equirect]
+  blender --background --factory-startup --python render.py -- --cube cube.json --output FOLDER ...
 
-The picture is scene-linear radiance, 32-bit OpenEXR. World: y up there, z up in Blender.
+The picture is scene-linear radiance, 32-bit OpenEXR. World: y up there, z up in Blender. With --cube it is one of 90
+degrees for each camera of the file, a list of matrices to the world, in two parts: FOLDER/emitted0000.exr, lamps and
+sky seen directly, and FOLDER/reflected0000.exr, the rest.
 """
 import argparse
 import json
+import math
 import os
 import sys
 
@@ -38,6 +42,7 @@ def arguments():
     parser.add_argument("--threads", type=int, default=0, help="0: all")
     parser.add_argument("--projection", choices=("camera", "equirect"), default="camera",
                         help="equirect: all around the camera's place, the centre looking to the world's +x")
+    parser.add_argument("--cube", help="JSON file of cameras' matrices, for pictures of 90 degrees in two parts")
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else [])
 
 
@@ -152,6 +157,51 @@ def emitters_alone(scene):
     tree.links.new(add.outputs[0], out.inputs[0])
 
 
+def split_pictures(folder, with_reflected):
+    """Has the parts of each picture written, with the frame's number in their names."""
+    s = bpy.context.scene
+    layer = s.view_layers[0]
+    layer.use_pass_emit = layer.use_pass_environment = True
+    s.use_nodes = True
+    tree = s.node_tree
+    tree.nodes.clear()
+    layers = tree.nodes.new("CompositorNodeRLayers")
+
+    def mix(blend, first, second):
+        node = tree.nodes.new("CompositorNodeMixRGB")
+        node.blend_type = blend
+        tree.links.new(first, node.inputs[1])
+        tree.links.new(second, node.inputs[2])
+        return node.outputs[0]
+
+    def write(name, part):
+        out = tree.nodes.new("CompositorNodeOutputFile")
+        out.base_path = os.path.abspath(folder)
+        out.format.file_format, out.format.color_mode = "OPEN_EXR", "RGB"
+        out.format.color_depth, out.format.exr_codec = "32", "ZIP"
+        out.file_slots[0].path = name
+        tree.links.new(part, out.inputs[0])
+
+    emitted = mix("ADD", layers.outputs["Emit"], layers.outputs["Env"])
+    write("emitted", emitted)
+    if with_reflected:
+        write("reflected", mix("SUBTRACT", layers.outputs["Image"], emitted))
+
+
+def render_cube(scene, options, depth):
+    s = bpy.context.scene
+    s.render.use_persistent_data = True
+    s.render.resolution_x = s.render.resolution_y = scene["width"]
+    split_pictures(options.output, depth > 0)
+    with open(options.cube) as file:
+        cameras = json.load(file)
+    build_camera(dict(scene["camera"], orthographic=False, yfov=math.pi / 2), s.render, "camera")
+    for frame, world in enumerate(cameras):
+        s.frame_set(frame)
+        s.camera.matrix_world = TO_BLENDER @ Matrix(world)
+        bpy.ops.render.render()
+
+
 def main():
     options = arguments()
     with open(os.path.join(HERE, "scene.json")) as file:
@@ -171,6 +221,9 @@ def main():
         build_light(light)
     build_world(scene.get("environment"))
     depth = choose_settings(scene, options)
+    if options.cube:
+        render_cube(scene, options, depth)
+        return
     build_camera(scene["camera"], bpy.context.scene.render, options.projection)
     if depth == 0:
         emitters_alone(scene)
