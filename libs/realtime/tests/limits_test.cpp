@@ -12,7 +12,7 @@
 
 #include "depth_bounds.h"
 #include "fitted_light.h"
-#include "octahedral.h"
+#include "tile_atlas.h"
 #include "shader_table.h"
 #include "shaders.h"
 #include "straight_view.h"
