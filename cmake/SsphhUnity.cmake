@@ -1,10 +1,11 @@
-# ssphh_unity(<target>): with SSPHH_UNITY, compiles the target's sources so far in batches of about eight, each included by
-# one file: headers are read and templates made once for all of them. Which batch a file is in follows from its name, so that
-# a new one changes that batch alone. What has compile options of its own, and what says SKIP_UNITY_BUILD_INCLUSION, stays apart.
+# ssphh_unity(<target>): with SSPHH_UNITY, compiles the target's sources so far in batches, each included by one file: headers
+# are read and templates made once for all of them. Which batch a file is in follows from its name, so that a new one changes
+# that batch alone. Tests, which change most, are in smaller ones. What has compile options of its own, and what says
+# SKIP_UNITY_BUILD_INCLUSION, stays apart.
 #
 # UNITY_BUILD of CMake writes absolute paths, so that a clone elsewhere would find nothing in the compiler's cache.
 set(SSPHH_UNITY OFF CACHE STRING "ON: compile the files of a target in batches, quicker from nothing, slower after a change; TESTS: those of test programs alone")
-set(SSPHH_UNITY_BATCH 8 CACHE STRING "Files in a batch, about; a large number compiles each target as one")
+set(SSPHH_UNITY_FILES 32 CACHE STRING "Files in a batch, about, of tests a quarter of that; a large number compiles each target as one")
 
 function(ssphh_unity target)
   if(NOT SSPHH_UNITY OR (SSPHH_UNITY STREQUAL "TESTS" AND NOT target MATCHES "^test_"))
@@ -28,7 +29,11 @@ function(ssphh_unity target)
     endif()
   endforeach()
   list(LENGTH together count)
-  math(EXPR batches "(${count} + ${SSPHH_UNITY_BATCH} - 1) / ${SSPHH_UNITY_BATCH}")
+  set(most ${SSPHH_UNITY_FILES})
+  if(target MATCHES "^test_")
+    math(EXPR most "(${most} + 3) / 4")
+  endif()
+  math(EXPR batches "(${count} + ${most} - 1) / ${most}")
   foreach(name IN LISTS together)
     string(MD5 digest ${name})
     string(SUBSTRING ${digest} 0 8 digits)

@@ -63,7 +63,7 @@ void App::use_probes(const std::string& what) {
   } else if (what == "auto") {
     place_probes(0);
   } else if (what.starts_with(automatic)) {
-    const float spacing = parse_number("probes", what.substr(automatic.size()));
+    const float spacing = number_of("probes", what.substr(automatic.size()));
     if (!(spacing > 0)) throw Error("probes", "a spacing must be over 0", "as in auto:0.7");
     place_probes(spacing);
   } else if (what.find(".sphl") != std::string::npos) {

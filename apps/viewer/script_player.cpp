@@ -26,7 +26,7 @@ const char* const script_help =
 namespace {
 
 float number(const ScriptLine& line, std::size_t word) {
-  return parse_number(line.where, line.words[word]);
+  return number_of(line.where, line.words[word]);
 }
 
 vec3 vector(const ScriptLine& line, std::size_t word) {

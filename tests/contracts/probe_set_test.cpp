@@ -102,11 +102,24 @@ std::vector<Contract> of_lookups() {
                 probes::IrradianceLookup(sound_set(), std::make_unique<Stray>()).irradiance({});
               },
               {"lookup weights", "not there"}),
+      refuses("IrradianceLookup", "ByAWeightThatNamesNoProbe",
+              [] {
+                probes::ProbeWeights weights;
+                weights.add(7, 1);
+                lookup_of(sound_set())->irradiance({}, weights);
+              },
+              {"lookup weights", "not there"}),
       gives("IrradianceLookup", "AtNoPlace",
             [] {
               lookup_of(sound_set())->irradiance({vec3(nan), vec3(0, 1, 0)});
             }),
       refuses("MakeWeights", "WithoutProbes", [] { probes::make_weights({}, all_seen); }, {"empty"}),
+      refuses("MakeVisibleWeights", "WithoutProbes", [] { probes::make_visible_weights({}); }, {"empty"}),
+      refuses("MakeVisibleWeights", "OfAPlaceThatIsNone",
+              [] {
+                probes::make_visible_weights(std::vector<vec3>{vec3(0), vec3(nan)});
+              },
+              {"not finite"}),
       refuses("MakeWeights", "WithoutSight", [] { probes::make_weights(std::vector<vec3>(2), nullptr); },
               {"sees"}),
       refuses("MakeWeights", "OfAPlaceThatIsNone",

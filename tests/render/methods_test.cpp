@@ -1,5 +1,4 @@
-// What every method of indirect light promises, whatever it does inside, and the simplest of them against
-// closed forms.
+// What every method of indirect light promises, whatever it does inside.
 
 #include <map>
 
@@ -98,25 +97,6 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod, testing::ValuesIn([] {
                            std::erase(name, '-');
                            return name;
                          });
-
-// A closed room of one albedo ρ keeps the share ρ of its light at each bounce, so that the mean irradiance
-// of all bounces is ρ/(1 − ρ) of the direct one: energy balance.
-TEST(Ambient, IsTheMeanOfAClosedRoom) {
-  scene::Scene scene = coloured_room(vec3(3));
-  constexpr float albedo = 0.6f;
-  for (scene::Material& material : scene.materials) material.base_color = vec3(albedo);
-  const trace::TransportScene source(scene);
-  const std::vector<rays::SurfacePoint> points = points_of(source, 4096);
-  const auto lights = source.direct_light(source.lights(0), methods::part_poses(source, 0));
-  std::vector<vec3> direct(points.size());
-  lights->irradiance(0, points, direct);
-  double mean = 0;
-  for (const vec3& e : direct) mean += e.g / static_cast<double>(points.size());
-
-  const auto method = make(methods::find_method("ambient"), scene, source, {"points=16384"});
-  const vec3 found = after(*method, rays::lighting_at(source, 0), {points.data(), 1})[0];
-  EXPECT_NEAR(found.g, mean * albedo / (1 - albedo), 0.04 * mean);
-}
 
 // A method that follows events ends where one that never saw another state begins.
 TEST(SsphhMethod, ForgetsWhatWas) {

@@ -61,7 +61,7 @@ SettingName number(const char* name, const char* group, const char* help, float 
                    Member member) {
   SettingName setting{name, group, help, {}, false, {}, {}};
   setting.set = [member, name, low, high](Settings& s, const std::string& text) {
-    const float value = parse_number(name, text);
+    const float value = number_of(name, text);
     if (!(value >= low && value <= high))
       throw Error(name, fmt::format("{} is not within {:g} to {:g}", text, low, high));
     using T = Of<Member>;
@@ -174,7 +174,7 @@ void set_setting(Settings& settings, const std::string& name, const std::string&
   throw Error(name, "is no setting", fmt::format("there are: {}", fmt::join(known, ", ")));
 }
 
-float parse_number(const std::string& where, const std::string& text) {
+float number_of(const std::string& where, const std::string& text) {
   if (const auto number = ssphh::parse_number<float>(text)) return *number;
   throw Error(where, fmt::format("\"{}\" is not a number", text));
 }

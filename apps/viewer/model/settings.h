@@ -120,6 +120,6 @@ const std::vector<SettingName>& setting_names();
 void set_setting(Settings& settings, const std::string& name, const std::string& value);
 
 /// Parses a finite number; throws Error(where, …).
-float parse_number(const std::string& where, const std::string& text);
+float number_of(const std::string& where, const std::string& text);
 
 }  // namespace ssphh::viewer

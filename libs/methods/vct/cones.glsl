@@ -2,7 +2,7 @@
 // of level 0, 0 at the grid's corner.
 
 // Mirrors GpuConeBlock in method_types.h.
-layout(std140, binding = 5) uniform ConeBlock {
+layout(std140, binding = BINDING_CONE_BLOCK) uniform ConeBlock {
   vec4 grid;    // corner of the grid; w: edge of a voxel
   vec4 march;   // offset, opacity, step, radiance that 1 in the volume stands for
   ivec4 counts; // cones, coarsest level
@@ -12,8 +12,8 @@ layout(std140, binding = 5) uniform ConeBlock {
   vec4 first[VOXEL_LEVELS];
   vec4 lobe_cosines[LOBE_STEPS / 4 + 1];
 } cones;
-layout(std430, binding = 0) readonly buffer Cones { vec4 hemisphere[]; };
-layout(binding = 4) uniform sampler3D voxels;  // VolumeLayout
+layout(std430, binding = BINDING_CONES) readonly buffer Cones { vec4 hemisphere[]; };
+layout(binding = UNIT_VOXELS) uniform sampler3D voxels;  // VolumeLayout
 
 // Sides that face a beam: weights, and where their parts stand along y.
 struct Facing { vec3 weight, part; };

@@ -6,8 +6,8 @@ struct VirtualLight {
   vec4 normal;
   vec4 power;   // over pi
 };
-layout(std430, binding = 1) readonly buffer VirtualLights { VirtualLight virtual_lights[]; };
-layout(binding = 4) uniform sampler2DArray virtual_light_maps;
+layout(std430, binding = BINDING_VIRTUAL_LIGHTS) readonly buffer VirtualLights { VirtualLight virtual_lights[]; };
+layout(binding = UNIT_VIRTUAL_LIGHT_MAPS) uniform sampler2DArray virtual_light_maps;
 uniform ivec4 lights_drawn;   // first and end of this pass
 uniform ivec4 map_layout;     // texels of a face, log2 of tiles in a row
 uniform float map_near;

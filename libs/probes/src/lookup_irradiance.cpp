@@ -15,9 +15,8 @@ struct IrradianceLookup::Data {
 
   /// Σ_j v_j value(j), not negative.
   template <class Value>
-  vec3 blend(const rays::SurfacePoint& at, const Value& value) const {
+  vec3 blend(const ProbeWeights& found, const Value& value) const {
     vec3 sum(0);
-    const ProbeWeights found = weights->at(at);
     for (const ProbeWeight& entry : found.used()) {
       require(entry.probe >= 0 && entry.probe < probes.count(), "lookup weights",
               "they name a probe that is not there");
@@ -116,9 +115,14 @@ void IrradianceLookup::swap_light(const ProbeSet& set) {
 
 vec3 IrradianceLookup::irradiance(const rays::SurfacePoint& at) const {
   if (vec3 found; data_->places && data_->places->irradiance(at, data_->light, found)) return found;
+  return irradiance(at, data_->weights->at(at));
+}
+
+vec3 IrradianceLookup::irradiance(const rays::SurfacePoint& at, const ProbeWeights& weights) const {
   PackedProbes::Basis basis;
   data_->probes.irradiance_basis(at.normal, basis);
-  return data_->blend(at, [&](int probe) { return data_->probes.irradiance(probe, basis.data(), at.moves); });
+  return data_->blend(weights,
+                      [&](int probe) { return data_->probes.irradiance(probe, basis.data(), at.moves); });
 }
 
 std::vector<std::string> IrradianceLookup::direct_groups() const {
@@ -132,7 +136,8 @@ std::vector<std::string> IrradianceLookup::mirrored_groups() const {
 vec3 IrradianceLookup::glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const {
   PackedProbes::Basis basis;
   data_->probes.glossy_basis(r, roughness, basis);
-  return data_->blend(at, [&](int probe) { return data_->probes.radiance(probe, basis.data()); });
+  return data_->blend(data_->weights->at(at),
+                      [&](int probe) { return data_->probes.radiance(probe, basis.data()); });
 }
 
 LookupParams lookup_params(const LookupSpec& spec, const ProbeSet& set) {

@@ -6,6 +6,7 @@ namespace ssphh::probes {
 struct LightLookup::Data {
   PackedProbes probes;
   std::shared_ptr<const ProbeSight> sight;
+  SeesProbe sees;
   std::vector<std::string> direct_groups;
 
   /// The nearest probe that the point sees and that stands above its horizon; else the nearest, with `lights`
@@ -23,7 +24,8 @@ struct LightLookup::Data {
       const geometry::Near& candidate = near[static_cast<std::size_t>(i)];
       if (!(candidate.distance2 > 0)) continue;
       const vec3 direction = (probes.position(candidate.index) - x) / std::sqrt(candidate.distance2);
-      if (glm::dot(n, direction) > 0 && sight->sees(candidate, at)) return {candidate.index, direction, true};
+      if (glm::dot(n, direction) > 0 && sight->sees(candidate, at, sees))
+        return {candidate.index, direction, true};
     }
     return {count > 0 ? near[0].index : 0, n, false};  // none is near a point that is no number
   }
@@ -32,10 +34,9 @@ struct LightLookup::Data {
 LightLookup::LightLookup(const ProbeSet& set, const rays::RadianceSource& source,
                          const LookupParams& params) {
   PackedProbes packed(set, params);
-  auto sight = std::make_shared<const ProbeSight>(
-      packed.positions(), [&source](const vec3& a, const vec3& b) { return source.visible(a, b); },
-      params.weights);
-  data_ = std::unique_ptr<Data>(new Data{std::move(packed), std::move(sight), baked_groups(set)});
+  auto sight = std::make_shared<const ProbeSight>(packed.positions(), params.weights);
+  const auto sees = [&source](const vec3& a, const vec3& b) { return source.visible(a, b); };
+  data_ = std::unique_ptr<Data>(new Data{std::move(packed), std::move(sight), sees, baked_groups(set)});
 }
 LightLookup::~LightLookup() = default;
 LightLookup::LightLookup(LightLookup&&) noexcept = default;

@@ -13,20 +13,18 @@ namespace {
 
 using NearList = ProbeSight::NearList;
 
-/// What all methods share.
-class VisibleWeights : public LookupWeights {
+/// The method `distance`, which also serves where the others find nothing.
+class DistanceWeights : public VisibleWeights {
  public:
-  VisibleWeights(std::span<const vec3> positions, SeesProbe sees, const WeightParams& params)
-      : sight_(positions, std::move(sees), params), wanted_(std::clamp(params.nearest, 1, max_weights)) {}
+  DistanceWeights(std::span<const vec3> positions, const WeightParams& params)
+      : sight_(positions, params), wanted_(std::clamp(params.nearest, 1, max_weights)) {}
   std::size_t bytes() const override { return sight_.bytes(); }
 
- protected:
-  /// The method `distance`, which also serves where the others find nothing.
-  ProbeWeights by_distance(const rays::SurfacePoint& at) const {
+  ProbeWeights at(const rays::SurfacePoint& at, const SeesProbe& sees) const override {
     const vec3 &x = at.position, &n = at.normal;
     NearList near;
     const int count = sight_.nearest(x, near);
-    int visible = sight_.visible_first(near, count, wanted_, at);
+    int visible = sight_.visible_first(near, count, wanted_, at, sees);
     const bool none_seen = visible == 0;
     if (none_seen) {
       std::sort(near.begin(), near.begin() + count);
@@ -47,6 +45,7 @@ class VisibleWeights : public LookupWeights {
     return out;
   }
 
+ protected:
   static void normalise(ProbeWeights& weights) {
     float sum = 0;
     for (const ProbeWeight& entry : weights.used()) sum += entry.weight;
@@ -71,16 +70,10 @@ class VisibleWeights : public LookupWeights {
   }
 };
 
-class DistanceWeights final : public VisibleWeights {
+class TrilinearWeights final : public DistanceWeights {
  public:
-  using VisibleWeights::VisibleWeights;
-  ProbeWeights at(const rays::SurfacePoint& point) const override { return by_distance(point); }
-};
-
-class TrilinearWeights final : public VisibleWeights {
- public:
-  using VisibleWeights::VisibleWeights;
-  ProbeWeights at(const rays::SurfacePoint& point) const override {
+  using DistanceWeights::DistanceWeights;
+  ProbeWeights at(const rays::SurfacePoint& point, const SeesProbe& sees) const override {
     const vec3& x = point.position;
     const float spacing = sight_.spacing();
     // A cell's corners lie within √3 spacings, as do up to 27 probes of a grid.
@@ -90,25 +83,25 @@ class TrilinearWeights final : public VisibleWeights {
     for (int i = 0; i < count && out.count < max_weights; ++i) {
       const geometry::Near& probe = near[static_cast<std::size_t>(i)];
       const vec3 tent = 1.0f - glm::abs(sight_.position(probe.index) - x) / spacing;
-      if (!(std::min({tent.x, tent.y, tent.z}) > least_tent) || !sight_.sees(probe, point)) continue;
+      if (!(std::min({tent.x, tent.y, tent.z}) > least_tent) || !sight_.sees(probe, point, sees)) continue;
       out.add(probe.index, tent.x * tent.y * tent.z);
     }
-    if (out.count == 0) return by_distance(point);
+    if (out.count == 0) return DistanceWeights::at(point, sees);
     normalise(out);
     return out;
   }
 };
 
-class MlsWeights final : public VisibleWeights {
+class MlsWeights final : public DistanceWeights {
  public:
-  using VisibleWeights::VisibleWeights;
-  ProbeWeights at(const rays::SurfacePoint& point) const override {
+  using DistanceWeights::DistanceWeights;
+  ProbeWeights at(const rays::SurfacePoint& point, const SeesProbe& sees) const override {
     const vec3& x = point.position;
     NearList near;
     const float radius = mls_reach * sight_.spacing();
     const int count = sight_.nearest(x, near, radius);
-    const int visible = sight_.visible_first(near, count, count, point);
-    if (visible == 0) return by_distance(point);
+    const int visible = sight_.visible_first(near, count, count, point, sees);
+    if (visible == 0) return DistanceWeights::at(point, sees);
 
     // Fit a + b·(p − x) to the probes, weighted by a bump of two spacings; the value at x is a. A ridge on b
     // keeps the fit flat along directions in which the probes do not differ.
@@ -141,11 +134,25 @@ bool has_spacing(std::span<const vec3> positions, const WeightParams& params) {
   return params.spacing > 0 || std::isfinite(median_spacing(positions));
 }
 
-/// That needs nothing but probes.
-WeightMethod own_fallback(const WeightParams& params) {
-  const WeightMethod f = params.fallback;
-  return f == WeightMethod::fitted || f == WeightMethod::surface ? WeightMethod::mls : f;
+/// The chosen method, or what stands in for one that needs more than probes.
+WeightMethod method_of_probes(const WeightParams& params) {
+  for (const WeightMethod method : {params.chosen(false), params.fallback})
+    if (method != WeightMethod::fitted && method != WeightMethod::surface) return method;
+  return WeightMethod::mls;
 }
+
+/// Visible weights of which every point is asked with the same sight.
+class SeenWeights final : public LookupWeights {
+ public:
+  SeenWeights(std::unique_ptr<VisibleWeights> weights, SeesProbe sees)
+      : weights_(std::move(weights)), sees_(std::move(sees)) {}
+  ProbeWeights at(const rays::SurfacePoint& point) const override { return weights_->at(point, sees_); }
+  std::size_t bytes() const override { return weights_->bytes(); }
+
+ private:
+  std::unique_ptr<VisibleWeights> weights_;
+  SeesProbe sees_;
+};
 
 }  // namespace
 
@@ -175,39 +182,29 @@ float median_spacing(std::span<const vec3> positions) {
   return *middle;
 }
 
-std::unique_ptr<LookupWeights> make_weights(std::span<const vec3> positions, SeesProbe sees,
-                                            const WeightParams& params, const FittedPoints* fitted) {
+std::unique_ptr<VisibleWeights> make_visible_weights(std::span<const vec3> positions,
+                                                     const WeightParams& params) {
   if (positions.empty()) throw Error("probe lookup", "the probe set is empty", "bake a scene with SPHLs");
   require(std::ranges::all_of(positions, is_finite), "probe lookup", "a probe's position is not finite");
-  require(sees != nullptr, "probe lookup", "nothing tells what sees the probes");
   require(params.spacing >= 0 && std::isfinite(params.spacing) && params.normal_offset >= 0 &&
               std::isfinite(params.normal_offset),
           "probe lookup", "spacing and normal offset must be lengths");
-  switch (params.chosen(fitted != nullptr)) {
-    case WeightMethod::surface: {
-      WeightParams beside = params;
-      beside.method = fitted ? WeightMethod::fitted : own_fallback(params);
-      return make_weights(positions, std::move(sees), beside, fitted);
-    }
-    case WeightMethod::fitted: {
-      if (!fitted) throw Error("probe lookup", "there are no fitted weights", "fit some, or choose others");
-      WeightParams elsewhere = params;
-      elsewhere.method = own_fallback(params);
-      return std::make_unique<FittedLookupWeights>(*fitted, positions.size(), sees,
-                                                   make_weights(positions, sees, elsewhere));
-    }
-    case WeightMethod::trilinear:
-      if (has_spacing(positions, params))
-        return std::make_unique<TrilinearWeights>(positions, std::move(sees), params);
-      break;
-    case WeightMethod::mls:
-      if (has_spacing(positions, params))
-        return std::make_unique<MlsWeights>(positions, std::move(sees), params);
-      break;
-    case WeightMethod::distance:
-      break;
-  }
-  return std::make_unique<DistanceWeights>(positions, std::move(sees), params);
+  const WeightMethod method = method_of_probes(params);
+  if (method == WeightMethod::distance || !has_spacing(positions, params))
+    return std::make_unique<DistanceWeights>(positions, params);
+  if (method == WeightMethod::trilinear) return std::make_unique<TrilinearWeights>(positions, params);
+  return std::make_unique<MlsWeights>(positions, params);
+}
+
+std::unique_ptr<LookupWeights> make_weights(std::span<const vec3> positions, SeesProbe sees,
+                                            const WeightParams& params, const FittedPoints* fitted) {
+  require(sees != nullptr, "probe lookup", "nothing tells what sees the probes");
+  auto around = std::make_unique<SeenWeights>(make_visible_weights(positions, params), sees);
+  const WeightMethod method = params.chosen(fitted != nullptr);
+  if (method == WeightMethod::fitted && !fitted)
+    throw Error("probe lookup", "there are no fitted weights", "fit some, or choose others");
+  if (!fitted || (method != WeightMethod::fitted && method != WeightMethod::surface)) return around;
+  return std::make_unique<FittedLookupWeights>(*fitted, positions.size(), std::move(sees), std::move(around));
 }
 
 }  // namespace ssphh::probes

@@ -11,10 +11,9 @@ namespace ssphh::probes {
 
 class ProbeSight {
  public:
-  ProbeSight(std::span<const vec3> positions, SeesProbe sees, const WeightParams& params)
+  ProbeSight(std::span<const vec3> positions, const WeightParams& params)
       : positions_(positions.begin(), positions.end()),
         nearest_(positions),
-        sees_(std::move(sees)),
         spacing_(params.spacing > 0 ? params.spacing : median_spacing(positions)),
         offset_(params.normal_offset) {}
 
@@ -36,16 +35,17 @@ class ProbeSight {
     return nearest_.find(x, near, radius);
   }
 
-  bool sees(const geometry::Near& near, const rays::SurfacePoint& at) const {
-    return sees_(at.position + lift(near, at) * at.normal, position(near.index));
+  bool sees(const geometry::Near& near, const rays::SurfacePoint& at, const SeesProbe& sees) const {
+    return sees(at.position + lift(near, at) * at.normal, position(near.index));
   }
 
   /// Moves the visible ones of the first `count` to the front, at most `wanted`; returns their number.
-  int visible_first(NearList& near, int count, int wanted, const rays::SurfacePoint& at) const {
+  int visible_first(NearList& near, int count, int wanted, const rays::SurfacePoint& at,
+                    const SeesProbe& sees) const {
     int visible = 0;
     for (int i = 0; i < count && visible < wanted; ++i) {
       const geometry::Near candidate = near[static_cast<std::size_t>(i)];
-      if (!sees(candidate, at)) continue;
+      if (!this->sees(candidate, at, sees)) continue;
       // Those that they replace were all hidden.
       std::swap(near[static_cast<std::size_t>(visible++)], near[static_cast<std::size_t>(i)]);
     }
@@ -63,7 +63,6 @@ class ProbeSight {
 
   std::vector<vec3> positions_;
   geometry::NearestPoints nearest_;
-  SeesProbe sees_;
   float spacing_, offset_;
 };
 

@@ -41,6 +41,36 @@ std::map<int, double> by_probe(const ProbeWeights& weights) {
   return result;
 }
 
+TEST(LookupWeights, OneSetOfThemServesEverySight) {
+  const std::vector<vec3> positions = grid(3, 1);
+  const rays::SurfacePoint at{vec3(0.9f, 1.2f, 0.8f), vec3(0, 1, 0)};
+  for (const WeightMethod method : all_methods) {
+    WeightParams params;
+    params.method = method;
+    const std::unique_ptr<VisibleWeights> weights_of_any = make_visible_weights(positions, params);
+    for (const float wall : {0.5f, 1.5f}) {
+      const SeesProbe sees = [wall](const vec3&, const vec3& probe) { return probe.x < wall; };
+      EXPECT_EQ(weights_of_any->at(at, sees), weights(positions, method, sees)->at(at)) << wall;
+    }
+    EXPECT_EQ(weights_of_any->bytes(), weights(positions, method)->bytes());
+  }
+}
+
+TEST(LookupWeights, ByProbesAloneStandInForThoseThatNeedMore) {
+  const std::vector<vec3> positions = grid(3, 1);
+  const rays::SurfacePoint at{vec3(0.9f, 1.2f, 0.8f), vec3(0, 1, 0)};
+  for (const WeightMethod method : {WeightMethod::fitted, WeightMethod::surface}) {
+    WeightParams params;
+    params.method = method;
+    params.fallback = WeightMethod::trilinear;
+    EXPECT_EQ(make_visible_weights(positions, params)->at(at, everything),
+              weights(positions, WeightMethod::trilinear)->at(at));
+    params.fallback = method;
+    EXPECT_EQ(make_visible_weights(positions, params)->at(at, everything),
+              weights(positions, WeightMethod::mls)->at(at));
+  }
+}
+
 TEST(LookupWeights, TrilinearIsTrilinearInterpolationOnAGrid) {
   constexpr float spacing = 0.7f;
   const std::vector<vec3> positions = grid(5, spacing);

@@ -4,8 +4,8 @@
 // normal. Variant FULL_BSDF.
 #include "gbuffer_read.glsl"
 
-layout(binding = 8) uniform sampler2D irradiance_image;
-layout(binding = 9) uniform sampler2D glossy_image;
+layout(binding = UNIT_IRRADIANCE) uniform sampler2D irradiance_image;
+layout(binding = UNIT_GLOSSY) uniform sampler2D glossy_image;
 layout(location = 0) out uvec4 cell;
 
 // Up to a share of the brightest, or to what no display shows.

@@ -3,7 +3,7 @@
 
 // A and B of the lobes' directional albedo E = f0 A + f90 B by cosine (x) and roughness (y); z, w their means.
 // Layer 0: GGX, 1: Blinn-Phong.
-layout(binding = 3) uniform sampler2DArray albedo_table;
+layout(binding = UNIT_ALBEDO_TABLE) uniform sampler2DArray albedo_table;
 
 struct Bsdf {
   vec3 diffuse, f0;

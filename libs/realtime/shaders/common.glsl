@@ -1,5 +1,5 @@
 // What every pass knows of the frame; mirrors FrameBlock in gpu_types.h.
-layout(std140, binding = 0) uniform FrameBlock {
+layout(std140, binding = BINDING_FRAME_BLOCK) uniform FrameBlock {
   vec4 camera_position;  // w: 1 for an orthographic camera
   vec4 camera_right;     // times half the width that is seen at distance 1; w: width in pixels
   vec4 camera_up;        // w: height in pixels

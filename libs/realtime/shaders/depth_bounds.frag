@@ -1,9 +1,9 @@
 #version 450 core
 // Greatest and least depth in squares of 2 x 2 texels of a tile: of the map itself (FIRST) or of the level before.
 #ifdef FIRST
-layout(binding = 6) uniform sampler2DArray depths;
+layout(binding = UNIT_PARALLEL_MAPS) uniform sampler2DArray depths;
 #else
-layout(binding = 15) uniform sampler2DArray depths;
+layout(binding = UNIT_DEPTH_BOUNDS) uniform sampler2DArray depths;
 #endif
 uniform ivec4 source;  // the tile's corner, layer and level
 uniform ivec4 target;  // corner

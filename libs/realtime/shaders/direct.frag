@@ -188,7 +188,7 @@ void main() {
 #ifdef ENVIRONMENT
 #ifdef FULL_BSDF
 // Octahedral tiles of what lobes of some roughnesses see (environment_tiles.h).
-layout(binding = 12) uniform sampler2DArray environment_tiles;
+layout(binding = UNIT_ENVIRONMENT_TILES) uniform sampler2DArray environment_tiles;
 uniform ivec4 environment_layout;  // texels of a tile without its border, log2 of tiles in a row
 uniform float environment_roughness[ENVIRONMENT_LEVELS];
 

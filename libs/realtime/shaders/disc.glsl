@@ -2,7 +2,7 @@
 // (Fernando, SIGGRAPH 2005 sketches). Bounds of depth tell first how far from the way to the light anything
 // stands that matters; where that is less than a texel the shadow is sharp.
 
-layout(binding = 15) uniform sampler2DArray depth_bounds;  // level l - 1: squares of 2^l texels
+layout(binding = UNIT_DEPTH_BOUNDS) uniform sampler2DArray depth_bounds;  // level l - 1: squares of 2^l texels
 
 const int NARROWING = 5, BLOCKER_TAPS = 16, SHADOW_TAPS = 32;
 const mat2 GOLDEN_TURN = mat2(-0.737368878, 0.675490294, -0.675490294, -0.737368878);  // of Vogel's spiral

@@ -1,7 +1,7 @@
 #version 450 core
 // Exposure, tone curve and encoding, as image::to_display.
 #include "common.glsl"
-layout(binding = 0) uniform sampler2D image;
+layout(binding = UNIT_PICTURE) uniform sampler2D image;
 uniform ivec4 corner;
 uniform int plain;  // views that are no light: encoding only
 layout(location = 0) out vec4 color;

@@ -1,9 +1,9 @@
 // Irradiance from points on surfaces, as probes::SurfaceInterpolation finds it: a linear fit to those around on the same
 // surface that the pixel sees. Lists and sight are made by probes::prepare_surfaces.
-layout(binding = 8) uniform usampler2D fitted_ranges;  // of each cell: first entry of its list, number of points
-layout(binding = 9) uniform usampler2D fitted_lists;   // points (surface_entry.h)
-layout(binding = 10) uniform usampler2D fitted_light;  // of each point, four texels: ten halves for each colour
-layout(binding = 11) uniform usampler2D fitted_points;  // of each, its place and its normal
+layout(binding = UNIT_FITTED_RANGES) uniform usampler2D fitted_ranges;  // of each cell: first entry of its list, number of points
+layout(binding = UNIT_FITTED_LISTS) uniform usampler2D fitted_lists;  // points (surface_entry.h)
+layout(binding = UNIT_FITTED_LIGHT) uniform usampler2D fitted_light;  // of each point, four texels: ten halves for each colour
+layout(binding = UNIT_FITTED_POINTS) uniform usampler2D fitted_points;  // of each, its place and its normal
 // Of the grid where points are dense and of that of all the rest: origin, w: side of a cell; cells, w: first range
 uniform vec4 fitted_origin, fitted_far_origin;
 uniform ivec4 fitted_cells, fitted_far_cells;

@@ -1,7 +1,7 @@
 #include "common.glsl"
 
-layout(binding = 0) uniform usampler2D gbuffer0;
-layout(binding = 1) uniform usampler2D gbuffer1;
+layout(binding = UNIT_GBUFFER0) uniform usampler2D gbuffer0;
+layout(binding = UNIT_GBUFFER1) uniform usampler2D gbuffer1;
 
 struct Surface {
   vec3 position, normal, geometric_normal, wo;

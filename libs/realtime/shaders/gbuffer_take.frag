@@ -2,12 +2,12 @@
 // An engine's G-buffer as ours: Lambertian surfaces.
 #include "common.glsl"
 
-layout(binding = 8) uniform sampler2D depth_image;
-layout(binding = 9) uniform sampler2D position_image;
-layout(binding = 10) uniform sampler2D normal_image;
-layout(binding = 11) uniform sampler2D geometric_normal_image;
-layout(binding = 12) uniform sampler2D albedo_image;
-layout(binding = 13) uniform sampler2D moving_image;
+layout(binding = UNIT_TAKEN) uniform sampler2D depth_image;
+layout(binding = UNIT_TAKEN + 1) uniform sampler2D position_image;
+layout(binding = UNIT_TAKEN + 2) uniform sampler2D normal_image;
+layout(binding = UNIT_TAKEN + 3) uniform sampler2D geometric_normal_image;
+layout(binding = UNIT_TAKEN + 4) uniform sampler2D albedo_image;
+layout(binding = UNIT_TAKEN + 5) uniform sampler2D moving_image;
 uniform ivec4 given;   // position, geometric normal, albedo, moving
 uniform ivec4 stored;  // clip space has z in 0..w, normals from zero
 uniform float empty_depth;

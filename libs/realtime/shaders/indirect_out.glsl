@@ -11,11 +11,11 @@ layout(location = 1) out vec4 glossy_out;
 #elif defined(LISTED)
 #include "listed_pixels.glsl"
 layout(local_size_x = LISTED_GROUP) in;
-layout(rgba32f, binding = 0) uniform image2D color_image;
+layout(rgba32f, binding = UNIT_COLOR_IMAGE) uniform image2D color_image;
 #else
 layout(location = 0) out vec4 color;
 #endif
-layout(binding = 2) uniform sampler2D occlusion_image;
+layout(binding = UNIT_OCCLUSION) uniform sampler2D occlusion_image;
 
 // Below 0: there is none left.
 ivec2 lit_pixel() {

@@ -3,8 +3,8 @@
 #include "gbuffer_read.glsl"
 #include "indirect_out.glsl"
 
-layout(binding = 8) uniform sampler2D irradiance_image;
-layout(binding = 9) uniform sampler2D glossy_image;
+layout(binding = UNIT_IRRADIANCE) uniform sampler2D irradiance_image;
+layout(binding = UNIT_GLOSSY) uniform sampler2D glossy_image;
 
 void main() {
   ivec2 at = lit_pixel();

@@ -8,7 +8,7 @@ struct AreaSample {
   vec4 normal;  // where it shines to, 0: everywhere; w: its map
   vec4 light;   // radiance times solid angle (environment)
 };
-layout(std140, binding = 2) uniform EmitterBlock {
+layout(std140, binding = BINDING_EMITTER_BLOCK) uniform EmitterBlock {
   vec4 place;  // position, or direction toward it; w: radius of a sphere or SPHL, of a sun's disc in radians
   vec4 light;  // as scene::Light: intensity, irradiance or radiance; w: range, 0 none
   vec4 cone;   // a spot's axis; w: scale, 0 none
@@ -27,14 +27,14 @@ struct SunMap {
   vec4 up;       // w: 1 / half height
   vec4 forward;  // away from the light; w: tile
 };
-layout(std140, binding = 1) uniform DistantBlock {
+layout(std140, binding = BINDING_DISTANT_BLOCK) uniform DistantBlock {
   SunMap sun_maps[MAX_PARALLEL_MAPS];
   vec4 environment_sh[25];
 };
 
-layout(binding = 4) uniform sampler2DArray light_maps;
-layout(binding = 5) uniform sampler2DArray area_maps;
-layout(binding = 6) uniform sampler2DArray parallel_maps;
+layout(binding = UNIT_LIGHT_MAPS) uniform sampler2DArray light_maps;
+layout(binding = UNIT_AREA_MAPS) uniform sampler2DArray area_maps;
+layout(binding = UNIT_PARALLEL_MAPS) uniform sampler2DArray parallel_maps;
 
 // What the cone and the range leave (KHR_lights_punctual).
 float falloff(vec3 wi, float distance2) {
@@ -85,9 +85,9 @@ float parallel_visibility(SunMap map, vec3 x, vec3 n) {
 
 // What glass leaves of light on its way to x.
 #ifdef GLASS
-layout(binding = 8) uniform sampler2DArray light_glass;
-layout(binding = 9) uniform sampler2DArray area_glass;
-layout(binding = 10) uniform sampler2DArray parallel_glass;
+layout(binding = UNIT_LIGHT_GLASS) uniform sampler2DArray light_glass;
+layout(binding = UNIT_AREA_GLASS) uniform sampler2DArray area_glass;
+layout(binding = UNIT_PARALLEL_GLASS) uniform sampler2DArray parallel_glass;
 vec3 lamp_filter(int slot, vec3 light, vec3 x) {
   return cube_filter(light_glass, frame.maps.x, frame.map_tiles.x, slot, light, x);
 }

@@ -4,7 +4,7 @@
 #include "gbuffer_read.glsl"
 #include "listed_pixels.glsl"
 
-layout(binding = 10) uniform usampler2D cells;
+layout(binding = UNIT_CELLS) uniform usampler2D cells;
 
 void list_pixel(ivec2 at) {
   uint i = atomicAdd(listed.count, 1u), group = i / LISTED_GROUP;

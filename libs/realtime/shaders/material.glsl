@@ -5,7 +5,7 @@ struct TextureUse {
   vec4 offset;  // xy; z: texture coordinate set
 };
 // What is drawn now: blocks of their own, so that all of a draw's pixels load the same.
-layout(std140, binding = 3) uniform MaterialBlock {
+layout(std140, binding = BINDING_MATERIAL_BLOCK) uniform MaterialBlock {
   vec4 base;      // rgb, alpha
   vec4 emission;  // rgb, metallic
   vec4 rough;     // diffuse, specular (both bipolar), F0 of the dielectric, normal scale
@@ -14,17 +14,17 @@ layout(std140, binding = 3) uniform MaterialBlock {
   vec4 inside;    // rgb: what a solid body leaves of light on half the way through it
   TextureUse base_use, rough_use, emission_use, normal_use, transmission_use;
 } material;
-layout(std140, binding = 4) uniform InstanceBlock {
+layout(std140, binding = BINDING_INSTANCE_BLOCK) uniform InstanceBlock {
   mat4 world;
   mat3x4 normal;        // inverse transpose, columns
   vec4 emission_scale;  // of its light group; w: 1 if it mirrors, and 2 if an animation moves it
 } instance;
 
-layout(binding = 8) uniform sampler2D base_texture;
-layout(binding = 9) uniform sampler2D rough_texture;
-layout(binding = 10) uniform sampler2D emission_texture;
-layout(binding = 11) uniform sampler2D normal_texture;
-layout(binding = 12) uniform sampler2D transmission_texture;
+layout(binding = UNIT_BASE_TEXTURE) uniform sampler2D base_texture;
+layout(binding = UNIT_ROUGH_TEXTURE) uniform sampler2D rough_texture;
+layout(binding = UNIT_EMISSION_TEXTURE) uniform sampler2D emission_texture;
+layout(binding = UNIT_NORMAL_TEXTURE) uniform sampler2D normal_texture;
+layout(binding = UNIT_TRANSMISSION_TEXTURE) uniform sampler2D transmission_texture;
 
 vec2 texture_place(TextureUse use, vec2 uv0, vec2 uv1) {
   vec2 uv = use.offset.z != 0 ? uv1 : uv0;

@@ -3,11 +3,11 @@
 #include "probe_data.glsl"
 
 // CandidateGrid's lists, CELLS_WIDTH entries in a row: position; w: probe, -1 where a list ends.
-layout(binding = 14) uniform sampler2D probe_cells;
+layout(binding = UNIT_PROBE_CELLS) uniform sampler2D probe_cells;
 
 // Octahedral tiles: irradiance of a probe by normal; radiance by mirror direction, one tile per roughness.
-layout(binding = 12) uniform sampler2DArray irradiance_tiles;
-layout(binding = 13) uniform sampler2DArray radiance_tiles;
+layout(binding = UNIT_IRRADIANCE_TILES) uniform sampler2DArray irradiance_tiles;
+layout(binding = UNIT_RADIANCE_TILES) uniform sampler2DArray radiance_tiles;
 
 uniform ivec4 irradiance_layout;  // texels of a tile without its border, log2 of tiles in a row; z: from a probe's tile to
                                   // that of what more lights things that move, 0: nothing

@@ -1,6 +1,6 @@
 #version 450 core
 // Mean of the samples of a pixel.
-layout(binding = 0) uniform sampler2D image;
+layout(binding = UNIT_PICTURE) uniform sampler2D image;
 layout(location = 0) uniform int scale;
 layout(location = 0) out vec4 color;
 void main() {

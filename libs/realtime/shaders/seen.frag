@@ -4,7 +4,7 @@
 #include "lights.glsl"
 
 #ifdef ENVIRONMENT
-layout(binding = 13) uniform sampler2D environment_map;
+layout(binding = UNIT_ENVIRONMENT) uniform sampler2D environment_map;
 #endif
 layout(location = 0) out vec4 color;
 

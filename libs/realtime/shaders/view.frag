@@ -3,7 +3,7 @@
 #include "gbuffer_read.glsl"
 #include "bsdf.glsl"
 
-layout(binding = 8) uniform sampler2D shadow_image;  // light that arrives, light there would be
+layout(binding = UNIT_SHADOW_IMAGE) uniform sampler2D shadow_image;  // light that arrives, light there would be
 layout(location = 0) out vec4 color;
 
 void main() {

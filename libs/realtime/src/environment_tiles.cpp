@@ -8,6 +8,7 @@
 
 #include "emitter_samples.h"
 #include "gpu_types.h"
+#include "octahedral.h"
 
 namespace ssphh::realtime {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <ssphh/scene/scene.h>
 
-#include "octahedral.h"
+#include "tile_atlas.h"
 
 namespace ssphh::realtime {
 

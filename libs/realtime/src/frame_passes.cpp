@@ -223,7 +223,7 @@ void Renderer::Data::draw_view() {
 void Renderer::Data::draw_resolved() {
   gl::Program& program = shaders.resolve();
   program.set_at(0, images.supersample);
-  images.color.bind(0);
+  images.color.bind(unit::picture);
   fullscreen(program, images.resolve_pass.id(), images.picture());
 }
 
@@ -234,7 +234,7 @@ void Renderer::Data::draw_display() {
   gl::Program& program = shaders.display();
   program.set("plain", light ? 0 : 1);
   program.set("corner", target.x, target.y);
-  images.result().bind(0);
+  images.result().bind(unit::picture);
   fullscreen(program, target.framebuffer, {target.x, target.y, target.width, target.height});
 }
 

@@ -10,9 +10,6 @@
 namespace ssphh::realtime {
 namespace {
 
-/// Of the pass that takes a G-buffer.
-constexpr unsigned first_taken = 8;
-
 struct Part {
   const char* name;
   unsigned texture;
@@ -51,7 +48,7 @@ Eye engines_eye(const GBuffer& g) {
 
 void Renderer::Data::take_geometry() {
   const GBuffer& g = *taken;
-  unsigned end = first_taken;
+  unsigned end = unit::taken;
   for (const Part& part : parts_of(g)) {
     if (part.texture != 0) gl::bind_texture(end, part.texture);
     texel_sampler.bind(end++);
@@ -67,7 +64,7 @@ void Renderer::Data::take_geometry() {
   gl::clear_color_uint(1, 0, 0, 0, 0);
   gl::clear_color(2, 0, 0, 0, 0);
   fullscreen(program, images.geometry_pass.id(), images.full(), {.stencil_write = surface_class::lambertian});
-  for (unsigned i = first_taken; i < end; ++i) gl::Sampler::unbind(i);
+  for (unsigned i = unit::taken; i < end; ++i) gl::Sampler::unbind(i);
   images.gbuffer0.bind(unit::gbuffer0);
   images.gbuffer1.bind(unit::gbuffer1);
 }

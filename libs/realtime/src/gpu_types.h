@@ -107,7 +107,7 @@ enum class GlassLayer { opaque, through, reflecting };
 /// Of what OpenGL keeps as halves.
 inline constexpr float largest_half = 65504;
 
-/// Where shaders expect what.
+/// Where shaders expect what: they find it as BINDING_ and UNIT_ with the name (shader_constants.cpp).
 namespace binding {
 inline constexpr unsigned frame_block = 0, distant_block = 1, emitter_block = 2, material_block = 3,
                           instance_block = 4;
@@ -116,6 +116,8 @@ inline constexpr unsigned listed_pixels = 2;  // storage
 namespace unit {
 /// Of images that shaders write.
 inline constexpr unsigned color_image = 0;
+/// Of a whole picture, and of the textures of another renderer's G-buffer, the first of six.
+inline constexpr unsigned picture = 0, taken = 8;
 inline constexpr unsigned gbuffer0 = 0, gbuffer1 = 1, albedo_table = 3, light_maps = 4, area_maps = 5,
                           parallel_maps = 6, probe_maps = 7;
 inline constexpr unsigned base_texture = 8, rough_texture = 9, emission_texture = 10, normal_texture = 11,

@@ -6,11 +6,6 @@
 #include <ssphh/sh/evaluate.h>
 
 namespace ssphh::realtime {
-namespace {
-
-constexpr int octahedral_atlas_side = 2048;
-
-}  // namespace
 
 vec3 octahedral_direction(vec2 p) {
   // Across an edge the map goes on mirrored at the edge's middle
@@ -60,18 +55,6 @@ void TileBasis::evaluate(std::span<const vec3> coefficients, std::span<const flo
     }
   }
   for (vec4& texel : out) texel = glm::max(texel, vec4(0));
-}
-
-TileAtlas::TileAtlas(int size, int tiles) : size_(size), layout_(tiles, octahedral_atlas_side / (size + 2)) {
-  const int side = size + 2;
-  texture_ = gl::Texture(gl::Format::rgba16f, side * layout_.columns(), side * layout_.rows, layout_.layers);
-  texture_.set_filter(true);
-}
-
-void TileAtlas::upload(int tile, std::span<const vec4> texels) {
-  const int side = size_ + 2;
-  texture_.upload_rect(std::as_bytes(texels), layout_.column(tile) * side, layout_.row(tile) * side, side,
-                       side, layout_.layer(tile));
 }
 
 }  // namespace ssphh::realtime

@@ -7,9 +7,6 @@
 #include <vector>
 
 #include <ssphh/core/math.h>
-#include <ssphh/gl/texture.h>
-
-#include "tile_layout.h"
 
 namespace ssphh::realtime {
 
@@ -34,24 +31,6 @@ class TileBasis {
  private:
   int size_ = 0, degree_ = 0;
   std::vector<float> basis_;  ///< [k][texel]
-};
-
-/// Tiles of one size in a texture array.
-class TileAtlas {
- public:
-  TileAtlas() = default;
-  TileAtlas(int size, int tiles);
-
-  int size() const { return size_; }
-  const TileLayout& layout() const { return layout_; }
-  std::size_t bytes() const { return texture_.id() ? texture_.bytes() / 2 : 0; }
-  void upload(int tile, std::span<const vec4> texels);
-  void bind(unsigned unit) const { texture_.bind(unit); }
-
- private:
-  int size_ = 0;
-  TileLayout layout_;
-  gl::Texture texture_;
 };
 
 }  // namespace ssphh::realtime

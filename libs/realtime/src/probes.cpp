@@ -1,28 +1,18 @@
 #include "probes.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
 
 #include <ssphh/core/error.h>
-#include <ssphh/core/parallel.h>
 #include <ssphh/core/require.h>
-#include <ssphh/sh/irradiance.h>
-#include <ssphh/sh/window.h>
-#include <ssphh/sh/zonal.h>
 
 namespace ssphh::realtime {
 namespace {
 
-/// Texels of a tile's side. The tests bound what interpolation errs in each band; irradiance has little of
-/// the higher ones, and so has what a rough surface mirrors.
-constexpr int irradiance_tile = 24, radiance_tile = 30;
 constexpr int largest_face = 256, smallest_face = 32;
-
-constexpr std::array<float, sh::max_degree + 1> ones = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
 
 /// The largest face of a power of two with which all probes' maps fit into `bytes`.
 int face_size(std::size_t probes, std::size_t bytes) {
@@ -58,11 +48,7 @@ Probes::Probes() {
 Probes::Probes(const probes::ProbeSet& set, const probes::LookupParams& params,
                const RendererParams& renderer, const scene::Bounds& bounds, bool glossy,
                FrameCounters& counters)
-    : irradiance_degree_(probes::irradiance_degree(params, set.degree)),
-      radiance_degree_(set.degree),
-      dering_(params.dering),
-      near_(cube_near(bounds)),
-      light_(probes::surface_light(set, params)) {
+    : radiance_degree_(set.degree), near_(cube_near(bounds)), light_(probes::surface_light(set, params)) {
   scene::Bounds all = bounds;
   for (const probes::Probe& probe : set.probes) {
     places_.push_back(probe.position);
@@ -72,15 +58,15 @@ Probes::Probes(const probes::ProbeSet& set, const probes::LookupParams& params,
   spacing_ = params.weights.spacing > 0 ? params.weights.spacing : probes::median_spacing(places_);
   grid_ = probes::make_candidate_grid(places_, all, spacing_);
   cells_ = cell_texture(grid_, places_);
-  irradiance_basis_ = TileBasis(irradiance_tile, irradiance_degree_);
+  irradiance_tiles_ = IrradianceTiles(probes::irradiance_degree(params, set.degree), params.dering);
   keeps_direct_ = set.surface && !set.surface->direct.empty();
   irradiance_ = TileAtlas(irradiance_tile, keeps_direct_ ? 2 * count() : count());
   radiance_ = TileAtlas(radiance_tile, 1);
   levels_ = glossy ? static_cast<int>(radiance_roughness.size()) : 1;
   counters.bytes_uploaded += cells_.bytes();
 
-  irradiance_functions_.resize(light_.size() * irradiance_count());
-  make_tiles(all_probes(), true, false, counters);
+  irradiance_functions_.resize(light_.size() * irradiance_tiles_.count());
+  upload_irradiance(all_probes(), counters);
 
   maps_ = MapAtlas(face_size(places_.size(), renderer.probe_map_bytes), 6 * count());
   const std::vector<float> reach = probes::probe_reach(grid_, places_);
@@ -113,22 +99,17 @@ void Probes::set_light(std::span<const int> probes, std::span<const sh::Radiance
       throw Error(fmt::format("probe {}", probes[i]), "its light is not finite");
   }
   for (std::size_t i = 0; i < probes.size(); ++i) light_[probes[i]] = light[i];
-  make_tiles(probes, true, has_radiance_, counters);
-  if (fitted_) fitted_->update(probes, irradiance_functions_, irradiance_count(), *surface_, counters);
+  upload_irradiance(probes, counters);
+  if (radiance_tiles_) upload_radiance(probes, counters);
+  if (fitted_) fitted_->update(probes, irradiance_functions_, irradiance_tiles_.count(), *surface_, counters);
 }
 
 void Probes::set_light_of_moving(std::span<const sh::RadianceSh> light, FrameCounters& counters) {
   require(light.empty() || keeps_direct_, "probes", "they keep direct light that their set did not");
   has_light_of_moving_ = !light.empty();
-  std::vector<vec4> tile(irradiance_basis_.texels());
-  for (std::size_t i = 0; i < light.size(); ++i) {
-    sh::RadianceSh l = light[i];
-    l.values.resize(irradiance_count(), vec3(0));
-    if (dering_) l = sh::dering(l, sh::NonNegative::irradiance);
-    irradiance_basis_.evaluate(sh::irradiance_from_radiance(l).values, ones, tile);
-    irradiance_.upload(count() + static_cast<int>(i), tile);
-    counters.bytes_uploaded += tile.size() * sizeof(vec4);
-  }
+  counters.bytes_uploaded += irradiance_.fill(
+      light.size(), [&](std::size_t i) { return count() + static_cast<int>(i); },
+      [&](std::size_t i, std::span<vec4> tile) { irradiance_tiles_.make(light[i], tile); }, texels_);
 }
 
 void Probes::set_fitted(const probes::FittedSurfaces& fitted, FrameCounters& counters) {
@@ -138,7 +119,7 @@ void Probes::set_fitted(const probes::FittedSurfaces& fitted, FrameCounters& cou
   FittedLight light(fitted, count());
   surface_.emplace(fitted.surfaces, counters);
   fitted_ = std::move(light);
-  fitted_->update(all_probes(), irradiance_functions_, irradiance_count(), *surface_, counters);
+  fitted_->update(all_probes(), irradiance_functions_, irradiance_tiles_.count(), *surface_, counters);
 }
 
 void Probes::set_records(const probes::SurfaceLists& lists, FrameCounters& counters) {
@@ -174,55 +155,33 @@ std::vector<int> Probes::all_probes() const {
   return all;
 }
 
-std::size_t Probes::irradiance_count() const {
-  return static_cast<std::size_t>(sh::coefficient_count(irradiance_degree_));
-}
-
 void Probes::want_radiance(FrameCounters& counters) {
-  if (has_radiance_ || count() == 0) return;
-  has_radiance_ = true;
-  radiance_basis_ = TileBasis(radiance_tile, radiance_degree_);
+  if (radiance_tiles_ || count() == 0) return;
+  radiance_tiles_.emplace(radiance_degree_, levels_);
   radiance_ = TileAtlas(radiance_tile, levels_ * count());
-  make_tiles(all_probes(), false, true, counters);
+  upload_radiance(all_probes(), counters);
 }
 
-void Probes::make_tiles(std::span<const int> probes, bool irradiance, bool radiance,
-                        FrameCounters& counters) {
-  const std::size_t small = irradiance ? irradiance_basis_.texels() : 0;
-  const std::size_t large = radiance ? radiance_basis_.texels() : 0;
-  const std::size_t each = small + static_cast<std::size_t>(levels_) * large;
-  // In portions, so that many probes need no more memory than a few
-  constexpr std::size_t portion = 64;
-  for (std::size_t first = 0; first < probes.size(); first += portion) {
-    const std::size_t n = std::min(portion, probes.size() - first);
-    if (texels_.size() < n * each) texels_.resize(n * each);
-    const auto tile = [&](std::size_t i, std::size_t level) {
-      return std::span<vec4>(texels_.data() + i * each + small + level * large, large);
-    };
-    parallel_for(n, 4, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        sh::RadianceSh l = light_[probes[first + i]];
-        for (std::size_t r = 0; radiance && r < static_cast<std::size_t>(levels_); ++r)
-          radiance_basis_.evaluate(l.values, sh::glossy_band_scales(radiance_roughness[r]), tile(i, r));
-        if (!irradiance) continue;
-        l.values.resize(irradiance_count(), vec3(0));
-        if (dering_) l = sh::dering(l, sh::NonNegative::irradiance);
-        const sh::IrradianceSh e = sh::irradiance_from_radiance(l);
-        irradiance_basis_.evaluate(e.values, ones, std::span<vec4>(texels_.data() + i * each, small));
-        std::copy_n(e.values.begin(), irradiance_count(),
-                    irradiance_functions_.begin() +
-                        static_cast<std::ptrdiff_t>(static_cast<std::size_t>(probes[first + i]) *
-                                                    irradiance_count()));
-      }
-    });
-    for (std::size_t i = 0; i < n; ++i) {
-      const int probe = probes[first + i];
-      if (irradiance) irradiance_.upload(probe, std::span<const vec4>(texels_.data() + i * each, small));
-      for (std::size_t r = 0; radiance && r < static_cast<std::size_t>(levels_); ++r)
-        radiance_.upload(probe * levels_ + static_cast<int>(r), tile(i, r));
-      counters.bytes_uploaded += each * sizeof(vec4);
-    }
-  }
+void Probes::upload_irradiance(std::span<const int> probes, FrameCounters& counters) {
+  counters.bytes_uploaded += irradiance_.fill(
+      probes.size(), [&](std::size_t i) { return probes[i]; },
+      [&](std::size_t i, std::span<vec4> tile) {
+        const sh::IrradianceSh e = irradiance_tiles_.make(light_[probes[i]], tile);
+        std::ranges::copy(e.values, irradiance_functions_.begin() +
+                                        static_cast<std::ptrdiff_t>(probes[i] * irradiance_tiles_.count()));
+      },
+      texels_);
+}
+
+void Probes::upload_radiance(std::span<const int> probes, FrameCounters& counters) {
+  const auto levels = static_cast<std::size_t>(levels_);
+  const auto level = [&](std::size_t i) { return static_cast<int>(i % levels); };
+  counters.bytes_uploaded += radiance_.fill(
+      levels * probes.size(), [&](std::size_t i) { return probes[i / levels] * levels_ + level(i); },
+      [&](std::size_t i, std::span<vec4> tile) {
+        radiance_tiles_->make(light_[probes[i / levels]], level(i), tile);
+      },
+      texels_);
 }
 
 int Probes::update_maps(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, int most,

@@ -12,8 +12,9 @@
 #include <ssphh/realtime/renderer.h>
 
 #include "fitted_light.h"
-#include "octahedral.h"
+#include "probe_tiles.h"
 #include "shadow_maps.h"
+#include "tile_atlas.h"
 
 namespace ssphh::realtime {
 
@@ -65,26 +66,25 @@ class Probes {
  private:
   std::vector<vec3> places_;
   std::vector<float> radii_;
-  int irradiance_degree_ = 0, radiance_degree_ = 0;
-  bool dering_ = true;
+  int radiance_degree_ = 0;
   float spacing_ = 1, near_ = 1e-3f;
   std::vector<sh::RadianceSh> light_;
   bool keeps_direct_ = false;                                        ///< there is room for the next
   bool has_light_of_moving_ = false, uses_light_of_moving_ = false;  ///< in tiles after the probes' own
   probes::CandidateGrid grid_;
   MapAtlas maps_;
-  TileBasis irradiance_basis_, radiance_basis_;
+  IrradianceTiles irradiance_tiles_;
+  std::optional<RadianceTiles> radiance_tiles_;  ///< none: no one has wanted them
   TileAtlas irradiance_, radiance_;
   void place_maps(int probe, float reach);
   std::vector<int> all_probes() const;
-  std::size_t irradiance_count() const;
-  void make_tiles(std::span<const int> probes, bool irradiance, bool radiance, FrameCounters& counters);
+  void upload_irradiance(std::span<const int> probes, FrameCounters& counters);
+  void upload_radiance(std::span<const int> probes, FrameCounters& counters);
 
   std::vector<vec3> irradiance_functions_;  ///< coefficients, probe after probe
   std::optional<SurfaceLight> surface_;     ///< of fitted points or records
   std::optional<FittedLight> fitted_;
   int levels_ = 1;                       ///< roughnesses of which radiance is kept
-  bool has_radiance_ = false;            ///< its tiles are there
   std::vector<unsigned char> sees_all_;  ///< of each probe; empty: none does
   std::vector<vec4> texels_;             ///< of the probes that change, while they are made
   gl::Texture cells_;

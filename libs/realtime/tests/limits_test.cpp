@@ -12,10 +12,10 @@
 
 #include "depth_bounds.h"
 #include "fitted_light.h"
-#include "octahedral.h"
 #include "shader_table.h"
 #include "shaders.h"
 #include "straight_view.h"
+#include "tile_atlas.h"
 #include "virtual_light_maps.h"
 
 namespace ssphh::realtime {

@@ -79,5 +79,11 @@ TEST(ShaderText, ConstantsOfCppAreUsedAndNotSaidAgain) {
   }
 }
 
+TEST(ShaderText, BindingsStandInCpp) {
+  static const std::regex number(R"(\bbinding\s*=\s*\d)");
+  for (const gl::ShaderFiles::Embedded& file : shader_table())
+    EXPECT_FALSE(std::regex_search(std::string(file.text), number)) << file.name;
+}
+
 }  // namespace
 }  // namespace ssphh::realtime

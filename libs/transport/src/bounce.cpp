@@ -24,9 +24,7 @@ struct BounceOperator::Data {
         projector(degree, network.gbuffer().directions),
         swept(swept_bounds(source)) {
     params.irradiance_degree = std::min(params.irradiance_degree, degree);
-    // Else every RayLookup would find it anew.
-    const float spacing = probes::median_spacing(network.gbuffer().positions);
-    if (params.weights.spacing == 0 && std::isfinite(spacing)) params.weights.spacing = spacing;
+    lookup = probes::make_visible_weights(network.gbuffer().positions, params.weights);
     const std::size_t rays = network.seen().size();
     known.resize(rays);
     basis.assign(rays * bands(), 0);
@@ -41,36 +39,10 @@ struct BounceOperator::Data {
     bool near_part = false;
   };
 
-  /// Lookup weights, and whether they hang on a way that some part may cross at some time. One for each range
-  /// of rays that a thread works on.
-  class RayLookup {
-   public:
-    explicit RayLookup(const Data& d)
-        : weights_(probes::make_weights(
-              d.network.gbuffer().positions,
-              [this, &d](const vec3& a, const vec3& b) {
-                near_part_ = near_part_ || d.crosses_swept({a, b - a, 1});
-                return sees(d.network, d.source, a, b);
-              },
-              d.params.weights)) {}
-    RayLookup(const RayLookup&) = delete;
-    RayLookup& operator=(const RayLookup&) = delete;
-
-    probes::ProbeWeights at(const rays::SurfacePoint& point, bool& near_part) {
-      near_part_ = false;
-      const probes::ProbeWeights found = weights_->at(point);
-      near_part = near_part_;
-      return found;
-    }
-
-   private:
-    bool near_part_ = false;
-    std::unique_ptr<probes::LookupWeights> weights_;
-  };
-
   const TransportNetwork& network;
   const rays::TransportSource& source;
   BounceParams params;
+  std::unique_ptr<probes::VisibleWeights> lookup;
   DirectionProjector projector;
   std::vector<scene::Bounds> swept;          ///< per part, all that it ever occupies
   std::vector<KnownHit> known;               ///< per probe ray
@@ -104,7 +76,7 @@ struct BounceOperator::Data {
   }
 
   /// Weights and basis functions at the hit of one ray; `at` stays empty where nothing is seen.
-  void look_up_anew(RayLookup& lookup, std::size_t ray, probes::ProbeWeights& at) {
+  void look_up_anew(std::size_t ray, probes::ProbeWeights& at) {
     const ProbeGBuffer& g = network.gbuffer();
     const std::size_t directions = g.directions.size(), count = bands();
     const SeenPatch& patch = network.seen()[ray];
@@ -114,7 +86,12 @@ struct BounceOperator::Data {
     const mat3 turn(network.poses()[static_cast<std::size_t>(surfel.part)]);
     const vec3 n = glm::normalize(glm::transpose(glm::inverse(turn)) * surfel.point.normal);
     const vec3 x = g.positions[ray / directions] + known[ray].distance * g.directions[ray % directions];
-    at = lookup.at({x, n, surfel.part > 0}, known[ray].near_part);
+    bool& near_part = known[ray].near_part;
+    const probes::SeesProbe seen = [this, &near_part](const vec3& a, const vec3& b) {
+      near_part = near_part || crosses_swept({a, b - a, 1});
+      return sees(network, source, a, b);
+    };
+    at = lookup->at({x, n, surfel.part > 0}, seen);
     const std::span<float> at_hit(basis.data() + ray * count, count);
     sh::eval_basis(params.irradiance_degree, n, at_hit);
     for (int l = 0; l <= params.irradiance_degree; ++l) {
@@ -127,13 +104,8 @@ struct BounceOperator::Data {
   void look_up_anew(std::span<const std::uint32_t> which) {
     if (which.empty()) return;
     std::vector<probes::ProbeWeights> found(which.size());
-    // So many rays that a lookup is made in a fraction of the time that they take.
-    const std::size_t grain = std::max<std::size_t>(256, network.gbuffer().positions.size());
     try {
-      parallel_for(which.size(), grain, [&](std::size_t first, std::size_t end) {
-        RayLookup lookup(*this);
-        for (std::size_t i = first; i < end; ++i) look_up_anew(lookup, which[i], found[i]);
-      });
+      parallel_for(which.size(), 256, [&](std::size_t i) { look_up_anew(which[i], found[i]); });
     } catch (...) {
       for (const std::uint32_t ray : which) known[ray].patch = unknown;
       throw;

@@ -31,7 +31,8 @@ class FreeLight {
 
  private:
   rays::PosedWorld world_;
-  std::unique_ptr<probes::IrradianceLookup> lookup_;
+  std::unique_ptr<probes::IrradianceLookup> lookup_;  ///< whose own weights are those of surfaces
+  std::unique_ptr<probes::VisibleWeights> weights_;   ///< for the sight of each place
 };
 
 }  // namespace ssphh::probe_export

@@ -102,6 +102,9 @@ class IrradianceLookup final : public rays::IndirectLight {
   IrradianceLookup(const IrradianceLookup&);
   void swap_light(const ProbeSet& set);
   vec3 irradiance(const rays::SurfacePoint& at) const override;
+  /// Of the probes alone, by these weights in place of its own. Throws Error for one that names another
+  /// probe.
+  vec3 irradiance(const rays::SurfacePoint& at, const ProbeWeights& weights) const;
   std::vector<std::string> direct_groups() const override;
   std::vector<std::string> mirrored_groups() const override;
   vec3 glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const override;

@@ -33,6 +33,20 @@ class LookupWeights {
   virtual std::size_t bytes() const = 0;
 };
 
+/// Weights by the probes around and what a point sees of them, for those who say that of each point apart.
+class VisibleWeights {
+ public:
+  virtual ~VisibleWeights() = default;
+  /// As LookupWeights::at. `sees` is asked by this call alone.
+  virtual ProbeWeights at(const rays::SurfacePoint& point, const SeesProbe& sees) const = 0;
+  virtual std::size_t bytes() const = 0;
+};
+
+/// By params.method; where that needs more than probes, by what stands in for it. Throws Error as
+/// make_weights does.
+std::unique_ptr<VisibleWeights> make_visible_weights(std::span<const vec3> positions,
+                                                     const WeightParams& params = {});
+
 /// `fitted` is copied; the method of that name needs it, and with `surface` it serves what the records do
 /// not, as `fallback` does without it. Throws Error without positions or `sees`, for positions and parameters
 /// that are not finite, for the method `fitted` without points, and for points that name a probe which there
