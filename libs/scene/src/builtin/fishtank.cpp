@@ -6,7 +6,7 @@
 namespace ssphh::scene {
 namespace {
 
-constexpr float tank_radius = 0.18f, depth = 0.18f;  // metres
+constexpr float tank_radius = 0.18f, water_level = 0.18f;  // metres
 
 /// Height of the surface above its rest: waves in three directions that end at the rim.
 float wave(float x, float z) {
@@ -20,7 +20,8 @@ float wave(float x, float z) {
 Mesh make_water() {
   constexpr int rings = 24;
   std::vector<vec2> profile{{0, 0}, {tank_radius, 0}};
-  for (int i = rings; i >= 0; --i) profile.emplace_back(tank_radius * static_cast<float>(i) / rings, depth);
+  for (int i = rings; i >= 0; --i)
+    profile.emplace_back(tank_radius * static_cast<float>(i) / rings, water_level);
   Mesh mesh = make_lathe(profile, 72);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     vec3& p = mesh.positions[i];
