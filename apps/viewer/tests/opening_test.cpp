@@ -109,12 +109,12 @@ TEST_F(Opening, EditsOfMeanwhileAreAskedAbout) {
 
 TEST_F(Opening, OfTwentyDroppedFilesTheFirstSceneIsOpened) {
   load_slowly();
-  go_on_ = true;
   std::vector<std::string> files = {"notes.txt"};
   for (int i = 0; i < 19; ++i) files.push_back(fmt::format("{}.glb", static_cast<char>('a' + i)));
   window_->dropped = files;
   turn();
   EXPECT_EQ(app().message, "19 scenes were dropped; a window shows one: a.glb");
+  go_on_ = true;
   finish_work();
   EXPECT_EQ(app().document.source, "a.glb");
   EXPECT_EQ(begun_, 1) << "not one after the other";

@@ -1,5 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <thread>
 #include <vector>
 
 #include <ssphh/core/sphere.h>
@@ -15,7 +19,7 @@ constexpr int sample_count = 2562;
 // No direction is farther than this from a sample [rad]; the test finds 0.048.
 constexpr double sample_reach = 0.055;
 // Descents per channel, from the lowest samples.
-constexpr int descent_count = 8;
+constexpr std::size_t descent_count = 8;
 
 using Channel = std::array<double, max_coefficient_count>;
 
@@ -64,26 +68,37 @@ double descend(const Channel& values, int degree, glm::dvec3 at, double value) {
   return value;
 }
 
-// The lowest of the samples (value, index) first, at most `descent_count` of them.
-void keep_lowest(std::vector<std::pair<double, std::size_t>>& found) {
-  const std::size_t kept = std::min<std::size_t>(found.size(), descent_count);
-  std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept), found.end());
-  found.resize(kept);
-}
+/// The lowest samples of those that are added, lowest first.
+class LowestSamples {
+ public:
+  struct Sample {
+    double value;
+    std::size_t index;
+  };
+  void add(double value, std::size_t index) {
+    if (count_ == descent_count && !(value < kept_.back().value)) return;
+    std::size_t i = count_ < descent_count ? count_++ : descent_count - 1;
+    for (; i > 0 && value < kept_[i - 1].value; --i) kept_[i] = kept_[i - 1];
+    kept_[i] = {value, index};
+  }
+  std::span<const Sample> all() const { return {kept_.data(), count_}; }
+
+ private:
+  std::array<Sample, descent_count> kept_;
+  std::size_t count_ = 0;
+};
 
 double channel_minimum(const Channel& values, int degree) {
   const auto count = static_cast<std::size_t>(coefficient_count(degree));
-  std::vector<std::pair<double, std::size_t>> found;
-  found.reserve(sample_count);
+  LowestSamples found;
   for (std::size_t i = 0; i < sample_count; ++i) {
     const Channel& basis = samples().basis[i];
     double sum = 0;
     for (std::size_t k = 0; k < count; ++k) sum += basis[k] * values[k];
-    found.emplace_back(sum, i);
+    found.add(sum, i);
   }
-  keep_lowest(found);
-  double lowest = found.front().first;
-  for (const auto& [value, index] : found)
+  double lowest = found.all().front().value;
+  for (const auto& [value, index] : found.all())
     lowest = std::min(lowest, descend(values, degree, samples().directions[index], value));
   return lowest;
 }
@@ -109,6 +124,7 @@ glm::dvec3 minima(const Sh& sh) {
 /// One channel of a function whose bands are about to be scaled: is it anywhere below a level?
 class WindowedChannel {
  public:
+  WindowedChannel() { bands_.reserve(std::size_t{sample_count} * (max_degree + 1)); }
   void assign(const Channel& values, int degree) {
     values_ = values;
     degree_ = degree;
@@ -137,24 +153,22 @@ class WindowedChannel {
     // each band is a trigonometric polynomial, whose second derivative Bernstein's inequality bounds.
     const double hidden = 0.5 * sample_reach * sample_reach * curvature;
     sample_bands();
-    thread_local std::vector<std::pair<double, std::size_t>> suspects;
-    suspects.clear();
+    LowestSamples suspects;
     for (std::size_t i = 0; i < sample_count; ++i) {
       const double* bands = &bands_[i * static_cast<std::size_t>(degree_ + 1)];
       double sum = 0;
       for (int l = 0; l <= degree_; ++l)
         sum += static_cast<double>(scales[static_cast<std::size_t>(l)]) * bands[l];
       if (sum < level) return true;
-      if (sum < level + hidden) suspects.emplace_back(sum, i);
+      if (sum < level + hidden) suspects.add(sum, i);
     }
-    keep_lowest(suspects);
     Channel scaled = values_;
     for (int l = 0; l <= degree_; ++l) {
       for (int k = coefficient_index(l, -l); k <= coefficient_index(l, l); ++k)
         scaled[static_cast<std::size_t>(k)] *= static_cast<double>(scales[static_cast<std::size_t>(l)]);
     }
-    return std::ranges::any_of(suspects, [&](const auto& suspect) {
-      return descend(scaled, degree_, samples().directions[suspect.second], suspect.first) < level;
+    return std::ranges::any_of(suspects.all(), [&](const LowestSamples::Sample& suspect) {
+      return descend(scaled, degree_, samples().directions[suspect.index], suspect.value) < level;
     });
   }
 
@@ -162,7 +176,6 @@ class WindowedChannel {
   /// Every band at every sample, once.
   void sample_bands() {
     if (!bands_.empty()) return;
-    bands_.reserve(static_cast<std::size_t>(sample_count * (degree_ + 1)));
     for (const Channel& basis : samples().basis) {
       for (int l = 0; l <= degree_; ++l) {
         double sum = 0;
@@ -177,6 +190,37 @@ class WindowedChannel {
   int degree_ = 0;
   std::array<double, max_degree + 1> largest_{};
   std::vector<double> bands_;
+};
+
+/// What is at work in choose_window: enough for every thread of the machine from the first time on, so that a
+/// thread that finds its first trough later takes no memory for it.
+class Workspaces {
+ public:
+  using Workspace = std::array<WindowedChannel, 3>;
+
+  static Workspaces& of_all() {
+    static Workspaces& all = *new Workspaces;  // threads may outlive statics
+    return all;
+  }
+  std::unique_ptr<Workspace> take() {
+    const std::scoped_lock lock(mutex_);
+    if (free_.empty()) return std::make_unique<Workspace>();
+    std::unique_ptr<Workspace> taken = std::move(free_.back());
+    free_.pop_back();
+    return taken;
+  }
+  void give_back(std::unique_ptr<Workspace> taken) {
+    const std::scoped_lock lock(mutex_);
+    free_.push_back(std::move(taken));
+  }
+
+ private:
+  Workspaces() {
+    for (unsigned i = 0; i < std::max(std::thread::hardware_concurrency(), 1u); ++i)
+      free_.push_back(std::make_unique<Workspace>());
+  }
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Workspace>> free_;
 };
 
 /// Of radiance, or of the irradiance that it gives.
@@ -202,6 +246,37 @@ BandScales window(double width, const Shape& shape) {
                                                       : 0.0f;
   }
   return scales;
+}
+
+AutoWindow choose_window(Workspaces::Workspace& wanted, const RadianceSh& radiance, NonNegative goal) {
+  AutoWindow result;
+  for (int c = 0; c < 3; ++c)
+    wanted[static_cast<std::size_t>(c)].assign(channel_values(radiance, goal, c), radiance.degree());
+  const auto all_above = [&](const glm::dvec3& levels, const BandScales& scales) {
+    for (int c = 0; c < 3; ++c) {
+      if (wanted[static_cast<std::size_t>(c)].below(levels[c], scales)) return false;
+    }
+    return true;
+  };
+  BandScales no_window;
+  no_window.fill(1);
+  if (all_above(glm::dvec3(0), no_window)) return result;
+
+  // Keep a little above 0, so that single-precision evaluation does not fall below.
+  const glm::dvec3 margin = 1e-5 * glm::abs(glm::dvec3(radiance[0]));
+  const auto good = [&](double inverse_width) {
+    return all_above(margin, lanczos_window(1 / inverse_width));
+  };
+
+  // Bisect 1/width between no window (0, known to fail) and the mean alone (1).
+  double fails = 0, works = 1;
+  if (!good(works)) return {1, std::min({radiance[0].x, radiance[0].y, radiance[0].z}) >= 0};
+  for (int i = 0; i < 20; ++i) {
+    const double middle = 0.5 * (fails + works);
+    (good(middle) ? works : fails) = middle;
+  }
+  result.width = 1 / works;
+  return result;
 }
 
 }  // namespace
@@ -237,36 +312,11 @@ vec3 minimum(const IrradianceSh& irradiance) {
 }
 
 AutoWindow choose_window(const RadianceSh& radiance, NonNegative goal) {
-  AutoWindow result;
-  if (radiance.empty()) return result;
-  thread_local std::array<WindowedChannel, 3> wanted;  // a lookup whose light changes takes no memory for it
-  for (int c = 0; c < 3; ++c)
-    wanted[static_cast<std::size_t>(c)].assign(channel_values(radiance, goal, c), radiance.degree());
-  const auto all_above = [&](const glm::dvec3& levels, const BandScales& scales) {
-    for (int c = 0; c < 3; ++c) {
-      if (wanted[static_cast<std::size_t>(c)].below(levels[c], scales)) return false;
-    }
-    return true;
-  };
-  BandScales no_window;
-  no_window.fill(1);
-  if (all_above(glm::dvec3(0), no_window)) return result;
-
-  // Keep a little above 0, so that single-precision evaluation does not fall below.
-  const glm::dvec3 margin = 1e-5 * glm::abs(glm::dvec3(radiance[0]));
-  const auto good = [&](double inverse_width) {
-    return all_above(margin, lanczos_window(1 / inverse_width));
-  };
-
-  // Bisect 1/width between no window (0, known to fail) and the mean alone (1).
-  double fails = 0, works = 1;
-  if (!good(works)) return {1, std::min({radiance[0].x, radiance[0].y, radiance[0].z}) >= 0};
-  for (int i = 0; i < 20; ++i) {
-    const double middle = 0.5 * (fails + works);
-    (good(middle) ? works : fails) = middle;
-  }
-  result.width = 1 / works;
-  return result;
+  if (radiance.empty()) return {};
+  std::unique_ptr<Workspaces::Workspace> work = Workspaces::of_all().take();
+  const AutoWindow chosen = choose_window(*work, radiance, goal);
+  Workspaces::of_all().give_back(std::move(work));
+  return chosen;
 }
 
 RadianceSh dering(const RadianceSh& radiance, NonNegative goal) {
