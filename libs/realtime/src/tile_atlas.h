@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <ssphh/core/parallel.h>
+#include <ssphh/core/vectors.h>
 #include <ssphh/gl/texture.h>
 
 #include "tile_layout.h"
