@@ -9,6 +9,7 @@
 #include <ssphh/sh/reconstruct.h>
 
 #include "commands/bake.h"
+#include "commands/bake_watch.h"
 #include "commands/child_process.h"
 #include "error_message.h"
 #include "json_text.h"
@@ -120,12 +121,13 @@ TEST(CyclesBake, FacesBecomeTheLightOfEachGroupTheRightWayRound) {
   EXPECT_EQ(std::ranges::count(calls, '\n'), 4) << "a run for each group, twice";
 }
 
-TEST(CyclesBake, IsForNoFarmAndNeedsBlender) {
+TEST(CyclesBake, IsForNoFarmNorWatchAndNeedsBlender) {
   const TempDir dir;
   BakeOptions options = of_a_box(dir);
   options.farm.local = 1;
   EXPECT_THAT(message_of([&] { run_bake(options); }), testing::HasSubstr("is not for a farm"));
   options.farm = {};
+  EXPECT_THAT(message_of([&] { run_bake_watch(options); }), testing::HasSubstr("is not for --watch"));
   const Path path(dir.path().string());
   EXPECT_THAT(message_of([&] { run_bake(options); }), testing::HasSubstr("no `blender`"));
 }

@@ -26,15 +26,48 @@ StageLamp shining_sphl() {
   return {};
 }
 
+StageLamp stage_sun() {
+  for (const StageLamp& lamp : lamps_without_extent()) {
+    if (lamp.light.type == scene::LightType::directional) return lamp;
+  }
+  return {};
+}
+
 class LampPixels : public WithGl {
  protected:
-  static image::Image draw(realtime::Renderer& renderer, const scene::Scene& scene) {
+  static image::Image draw(realtime::Renderer& renderer, const scene::Scene& scene,
+                           PictureSize size = lamp_size) {
     realtime::FrameSettings settings;
     settings.view = realtime::View::direct;
     settings.sky = realtime::Sky::black;
-    renderer.draw(scene::camera_pose(scene, ""), settings,
-                  {.width = lamp_size.width, .height = lamp_size.height});
+    renderer.draw(scene::camera_pose(scene, ""), settings, {.width = size.width, .height = size.height});
     return renderer.read_back();
+  }
+
+  /// The pixels of the stage's wall at z = -2 that `asked` wants by their places, and how many of them a sun
+  /// lights.
+  struct Wall {
+    int pixels = 0, lit = 0;
+  };
+  template <class Asked>
+  Wall wall_lit_by(scene::Scene& scene, float radius, const vec3& toward_sun, PictureSize size,
+                   const realtime::RendererParams& params, const Asked& asked) {
+    scene::Light sun = stage_sun().light;
+    sun.angular_radius = radius;
+    add_stage_lamp(scene, sun);
+    scene.nodes.back().local.rotation = glm::quatLookAt(-glm::normalize(toward_sun), vec3(0, 0, 1));
+    const trace::TransportScene source(scene);
+    const PixelPoints points(source, scene::camera_pose(scene, ""), size);
+    realtime::Renderer renderer(gl(), scene, params);
+    const image::Image drawn = draw(renderer, scene, size);
+    Wall wall;
+    for (const PixelPoint& p : points.pixels) {
+      const vec3& x = p.point.position;
+      if (p.hit.escaped() || p.point.normal.z < 0.9f || std::abs(x.z + 2) > 1e-3f || !asked(x)) continue;
+      const int i = static_cast<int>(points.index(p));
+      ++wall.pixels, wall.lit += max_component(drawn.rgb(i % size.width, i / size.width)) > 0;
+    }
+    return wall;
   }
 };
 
@@ -63,13 +96,6 @@ TEST_P(LampWithoutExtent, LightsEveryPixelAsItsClosedFormSays) {
 INSTANTIATE_TEST_SUITE_P(Lamps, LampWithoutExtent, testing::ValuesIn(lamps_without_extent()),
                          [](const auto& given) { return given.param.name; });
 
-StageLamp stage_sun() {
-  for (const StageLamp& lamp : lamps_without_extent()) {
-    if (lamp.light.type == scene::LightType::directional) return lamp;
-  }
-  return {};
-}
-
 TEST_F(LampPixels, OfASunThatShinesOnAPlainAreAsExactBeforeIt) {
   scene::Scene scene = stage(matte({0.9f, 0.3f, 0.5f}));
   add_mesh(scene, scene::make_quad({-2e3f, -0.02f, 2e3f}, {4e3f, 0, 0}, {0, 0, -4e3f}), 0);
@@ -85,25 +111,10 @@ TEST_F(LampPixels, OfASunThatRunsAlongAWallAreDarkUnderItsEaves) {
     scene::Scene scene = stage(matte({0.9f, 0.3f, 0.5f}));
     add_mesh(scene, scene::make_box({-6, 3, -2}, {6, 3.1f, -1.5f}), 0);
     add_mesh(scene, scene::make_quad({-60, -0.02f, 60}, {120, 0, 0}, {0, 0, -120}), 0);
-    scene::Light sun = stage_sun().light;
-    sun.angular_radius = radius;
-    add_stage_lamp(scene, sun);
-    const vec3 toward_sun = glm::normalize(vec3(0.3f, 1, 0.02f));
-    scene.nodes.back().local.rotation = glm::quatLookAt(-toward_sun, vec3(0, 0, 1));
-    const trace::TransportScene source(scene);
-    const PixelPoints points(source, scene::camera_pose(scene, ""), lamp_size);
-    realtime::Renderer renderer(gl(), scene);
-    const image::Image drawn = draw(renderer, scene);
-    int under = 0, lit = 0;
-    for (const PixelPoint& p : points.pixels) {
-      const vec3& x = p.point.position;
-      if (p.hit.escaped() || p.point.normal.z < 0.9f || std::abs(x.z + 2) > 1e-3f || x.y > 2.9f) continue;
-      const std::size_t i = points.index(p);
-      const int column = static_cast<int>(i) % lamp_size.width, row = static_cast<int>(i) / lamp_size.width;
-      ++under, lit += max_component(drawn.rgb(column, row)) > 0;
-    }
-    EXPECT_GT(under, 500);
-    EXPECT_EQ(lit, 0) << "of a sun with a radius of " << radius;
+    const Wall under = wall_lit_by(scene, radius, {0.3f, 1, 0.02f}, lamp_size, {},
+                                   [](const vec3& x) { return x.y <= 2.9f; });
+    EXPECT_GT(under.pixels, 500);
+    EXPECT_EQ(under.lit, 0) << "of a sun with a radius of " << radius;
   }
 }
 
@@ -112,31 +123,12 @@ TEST_F(LampPixels, OfASunAreDarkInCornersThatItsMapDoesNotTell) {
   for (const float radius : {0.0f, 0.0046f}) {
     scene::Scene scene = stage(matte({0.9f, 0.3f, 0.5f}));
     add_mesh(scene, scene::make_box({1, 0, -2}, {1.1f, 2.5f, -1.7f}), 0);
-    scene::Light sun = stage_sun().light;
-    sun.angular_radius = radius;
-    add_stage_lamp(scene, sun);
-    const vec3 toward_sun = glm::normalize(vec3(1, 0.2f, 0.8f));
-    scene.nodes.back().local.rotation = glm::quatLookAt(-toward_sun, vec3(0, 0, 1));
-    const trace::TransportScene source(scene);
-    const scene::CameraPose pose = scene::camera_pose(scene, "");
-    const PixelPoints points(source, pose, {320, 192});
     realtime::RendererParams params;
     params.sun_map_size = 128;
-    realtime::Renderer renderer(gl(), scene, params);
-    realtime::FrameSettings settings;
-    settings.view = realtime::View::direct;
-    renderer.draw(pose, settings, {.width = 320, .height = 192});
-    const image::Image drawn = renderer.read_back();
-    int beside = 0, lit = 0;
-    for (const PixelPoint& p : points.pixels) {
-      const vec3& x = p.point.position;
-      if (p.hit.escaped() || p.point.normal.z < 0.9f || std::abs(x.z + 2) > 1e-3f) continue;
-      if (x.x < 0.75f || x.x > 1 || x.y > 2) continue;
-      const int i = static_cast<int>(points.index(p));
-      ++beside, lit += max_component(drawn.rgb(i % 320, i / 320)) > 0;
-    }
-    EXPECT_GT(beside, 200);
-    EXPECT_EQ(lit, 0) << "of a sun with a radius of " << radius;
+    const Wall beside = wall_lit_by(scene, radius, {1, 0.2f, 0.8f}, {320, 192}, params,
+                                    [](const vec3& x) { return x.x >= 0.75f && x.x <= 1 && x.y <= 2; });
+    EXPECT_GT(beside.pixels, 200);
+    EXPECT_EQ(beside.lit, 0) << "of a sun with a radius of " << radius;
   }
 }
 

@@ -120,6 +120,8 @@ BakeWatch run_bake_watch(const BakeOptions& options, const Control& control) {
   const SceneOptions& scene = options.scene;
   if (scene.source.starts_with("builtin:") && scene.overlay.empty() && scene.environment.empty())
     throw Error("--watch", fmt::format("{} is no file that could be saved", scene.source));
+  if (options.renderer == Renderer::cycles)
+    throw Error("--renderer cycles", "is not for --watch, whose updates go on with our path tracer's light");
   BakeWatch watch;
   BakeWatcher watcher;
   Preview preview(options.preview);

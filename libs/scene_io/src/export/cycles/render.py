@@ -140,15 +140,19 @@ def choose_settings(scene, options):
     return depth
 
 
-def emitters_alone(scene):
-    """The picture of depth 0: emission pass plus environment pass."""
+def compositor_of_parts():
+    """An empty compositor, and its node of a picture's passes, emission and environment among them."""
     s = bpy.context.scene
     layer = s.view_layers[0]
     layer.use_pass_emit = layer.use_pass_environment = True
     s.use_nodes = True
-    tree = s.node_tree
-    tree.nodes.clear()
-    layers = tree.nodes.new("CompositorNodeRLayers")
+    s.node_tree.nodes.clear()
+    return s.node_tree, s.node_tree.nodes.new("CompositorNodeRLayers")
+
+
+def emitters_alone(scene):
+    """The picture of depth 0: emission pass plus environment pass."""
+    tree, layers = compositor_of_parts()
     add = tree.nodes.new("CompositorNodeMixRGB")
     add.blend_type = "ADD"
     tree.links.new(layers.outputs["Emit"], add.inputs[1])
@@ -159,13 +163,7 @@ def emitters_alone(scene):
 
 def split_pictures(folder, with_reflected):
     """Has the parts of each picture written, with the frame's number in their names."""
-    s = bpy.context.scene
-    layer = s.view_layers[0]
-    layer.use_pass_emit = layer.use_pass_environment = True
-    s.use_nodes = True
-    tree = s.node_tree
-    tree.nodes.clear()
-    layers = tree.nodes.new("CompositorNodeRLayers")
+    tree, layers = compositor_of_parts()
 
     def mix(blend, first, second):
         node = tree.nodes.new("CompositorNodeMixRGB")
