@@ -86,12 +86,11 @@ class BareEmbree {
     rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
     const std::vector<mat4> world = scene::world_matrices(scene);
     for (const scene::Instance& instance : scene.instances) {
-      const scene::Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+      const scene::Mesh& mesh = scene.meshes[instance.mesh];
       RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
       auto* vertices = static_cast<vec3*>(rtcSetNewGeometryBuffer(
           geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), mesh.positions.size()));
-      for (const vec3& p : mesh.positions)
-        *vertices++ = vec3(world[static_cast<std::size_t>(instance.node)] * vec4(p, 1));
+      for (const vec3& p : mesh.positions) *vertices++ = vec3(world[instance.node] * vec4(p, 1));
       void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                               sizeof(uvec3), mesh.triangles.size());
       std::copy(mesh.triangles.begin(), mesh.triangles.end(), static_cast<uvec3*>(indices));

@@ -237,8 +237,8 @@ double bare_shadow_rate(const Relit& scene, const vec3& lamp) {
   std::vector<vec3> vertices;
   for (const scene::Instance& instance : scene.scene.instances) {
     if (instance.mesh < 0) continue;
-    const scene::Mesh& mesh = scene.scene.meshes[static_cast<std::size_t>(instance.mesh)];
-    const mat4 to_world = instance.node < 0 ? mat4(1) : world[static_cast<std::size_t>(instance.node)];
+    const scene::Mesh& mesh = scene.scene.meshes[instance.mesh];
+    const mat4 to_world = instance.node < 0 ? mat4(1) : world[instance.node];
     for (const uvec3& t : mesh.triangles) {
       for (int c = 0; c < 3; ++c) vertices.emplace_back(to_world * vec4(mesh.positions[t[c]], 1));
     }
@@ -292,7 +292,7 @@ double bare_shadow_rate(const Relit& scene, const vec3& lamp) {
 void moving_lamp(benchmark::State& state, const std::string& name, float spacing, int light) {
   Relit& scene = relit(name, spacing);
   scene::LightingState lit = scene.session->lighting();
-  vec4& place = lit.lights[static_cast<std::size_t>(light)].world[3];
+  vec4& place = lit.lights[light].world[3];
   const vec4 home = place;
   std::vector<transport::RelightReport> frames;
   int frame = 0;

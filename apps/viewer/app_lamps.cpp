@@ -58,15 +58,14 @@ void App::duplicate_lamp() {
 
 void App::delete_lamp() {
   const auto i = selection.index;
-  const std::string name = document.scene->lights[static_cast<std::size_t>(i)].name;
+  const std::string name = document.scene->lights[i].name;
   document.edit_at_once("delete " + name, [&](Edits& e) { e.lights.erase(e.lights.begin() + i); });
   selection = {};
   say("deleted: " + name);
 }
 
 bool App::can_aim() const {
-  return selection.is(Kind::light) &&
-         has_direction(document.scene->lights[static_cast<std::size_t>(selection.index)].type);
+  return selection.is(Kind::light) && has_direction(document.scene->lights[selection.index].type);
 }
 
 std::optional<vec3> App::aim_origin() const {

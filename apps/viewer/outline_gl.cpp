@@ -105,8 +105,8 @@ void OutlineGl::set(const scene::Scene& scene, const std::vector<int>& instances
   d.bodies.clear();
   d.meshes.clear();
   for (const int i : instances) {
-    const scene::Instance& instance = scene.instances[static_cast<std::size_t>(i)];
-    const scene::Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+    const scene::Instance& instance = scene.instances[i];
+    const scene::Mesh& mesh = scene.meshes[instance.mesh];
     if (mesh.triangles.empty()) continue;
     d.bodies.push_back({&d.meshes.try_emplace(instance.mesh, mesh).first->second, instance.node});
   }
@@ -127,7 +127,7 @@ void OutlineGl::draw(const std::vector<mat4>& world, const gl::Texture& depth, c
   d.bodies_program.use();
   d.bodies_program.set("depth_scale", vec2(depth.width(), depth.height()) / vec2(width, height));
   for (const Data::Body& body : d.bodies) {
-    d.bodies_program.set("to_clip", view_projection * world[static_cast<std::size_t>(body.node)]);
+    d.bodies_program.set("to_clip", view_projection * world[body.node]);
     body.mesh->array.bind();
     gl::draw_indexed(body.mesh->corners, 0, 0);
   }

@@ -74,7 +74,7 @@ void draw_graph(const App& app, const std::vector<unsigned char>& visible, ImDra
   float strongest = 0;
   for (std::size_t i = 0; i < set.probes.size(); ++i) {
     for (const int e : probes::select_neighbors(set.probes[i], app.settings.hier_params)) {
-      const probes::Edge& edge = set.probes[i].edges[static_cast<std::size_t>(e)];
+      const probes::Edge& edge = set.probes[i].edges[e];
       lines.push_back({edge.transfer, i, static_cast<std::size_t>(edge.from)});
       strongest = std::max(strongest, edge.transfer);
     }
@@ -216,7 +216,7 @@ int axis_under_mouse(const App& app, float x, float y) {
 
 int probe_of_sphl(const App& app, int sphl) {
   const std::vector<SphlEdit>& sphls = app.document.edits().sphls;
-  if (sphl < 0 || !sphls[static_cast<std::size_t>(sphl)].enabled) return -1;
+  if (sphl < 0 || !sphls[sphl].enabled) return -1;
   const auto probe =
       std::count_if(sphls.begin(), sphls.begin() + sphl, [](const SphlEdit& s) { return s.enabled; });
   if (app.light.empty() || probe >= static_cast<std::ptrdiff_t>(app.light.set().probes.size())) return -1;

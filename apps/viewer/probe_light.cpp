@@ -110,7 +110,7 @@ bool ProbeLight::relight(const Document& document) {
     const std::vector<std::string> names = scene::light_groups(*document.scene);
     for (probes::LightGroup& group : set_->light_groups) {
       const auto found = std::ranges::find(names, group.name);
-      if (found != names.end()) group.scale = scales[static_cast<std::size_t>(found - names.begin())];
+      if (found != names.end()) group.scale = scales[found - names.begin()];
     }
     probes::merge_groups(*set_);
   }

@@ -24,8 +24,8 @@ class Engine {
   explicit Engine(const scene::Scene& scene) {
     const std::vector<mat4> world = scene::world_matrices(scene, 0);
     for (const scene::Instance& instance : scene.instances) {
-      const scene::Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-      const mat4& place = world[static_cast<std::size_t>(instance.node)];
+      const scene::Mesh& mesh = scene.meshes[instance.mesh];
+      const mat4& place = world[instance.node];
       for (const auto& triangle : mesh.triangles) {
         vec3 p[3];
         for (int i = 0; i < 3; ++i) p[i] = vec3(place * vec4(mesh.positions[triangle[i]], 1));

@@ -29,7 +29,7 @@ std::vector<Lamp> lamps(const LoadedScene& self) {
   const std::vector<mat4> world = scene::world_matrices(scene, self.time());
   std::vector<Lamp> all;
   for (const scene::Light& light : scene.lights) {
-    const mat4& pose = world[static_cast<std::size_t>(light.node)];
+    const mat4& pose = world[light.node];
     all.push_back({light.name, scene::light_group(light), std::string(name_of(light.type)), vec3(pose[3]),
                    -glm::normalize(vec3(pose[2])), light.color, light.intensity, light.radius});
   }
@@ -41,7 +41,7 @@ std::vector<View> views(const LoadedScene& self) {
   const std::vector<mat4> world = scene::world_matrices(scene, self.time());
   std::vector<View> all;
   for (const scene::Camera& camera : scene.cameras) {
-    const mat4& pose = world[static_cast<std::size_t>(camera.node)];
+    const mat4& pose = world[camera.node];
     all.push_back({camera.name, vec3(pose[3]), -glm::normalize(vec3(pose[2])), glm::normalize(vec3(pose[1])),
                    camera.orthographic, glm::degrees(camera.yfov)});
   }

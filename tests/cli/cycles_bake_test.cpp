@@ -54,10 +54,7 @@ vec3 sloped(const vec3& d) {
 
 /// What a camera of 90 degrees with that matrix to the world sees of it.
 image::Image picture_of(const json::Value& matrix) {
-  const auto entry = [&](int row, int column) {
-    return static_cast<float>(
-        matrix[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)].number());
-  };
+  const auto entry = [&](int row, int column) { return static_cast<float>(matrix[row][column].number()); };
   image::Image picture(face, face);
   for (int y = 0; y < face; ++y) {
     for (int x = 0; x < face; ++x) {

@@ -55,7 +55,7 @@ vec3 pixel(const ProbeSheet& sheet, int row, int column, int x, int y) {
 }
 
 void expect_picture(const ProbeSheet& sheet, int row, int column, const sh::RadianceSh& light) {
-  const float factor = std::exp2(sheet.columns[static_cast<std::size_t>(column)].exposure);
+  const float factor = std::exp2(sheet.columns[column].exposure);
   for (int y = 0; y < width / 2; ++y) {
     for (int x = 0; x < width; ++x) {
       const vec3 d = image::equirect_direction((static_cast<float>(x) + 0.5f) / width,
@@ -75,7 +75,7 @@ TEST(EdgeSheet, HasARowForEachNeighbourStrongestFirst) {
   sh::RadianceSh sum = a.self;
   for (int row = 0; row < 2; ++row) {
     const probes::Edge& edge = a.edges[row == 0 ? 1 : 0];
-    const sh::RadianceSh& source = set.probes[static_cast<std::size_t>(edge.from)].self;
+    const sh::RadianceSh& source = set.probes[edge.from].self;
     sh::RadianceSh product(1);
     // The paper's ⊗: coefficient by coefficient, over √4π.
     for (int k = 0; k < 4; ++k) product[k] = edge.h[k] * source[k] / std::sqrt(4 * pi);

@@ -37,14 +37,14 @@ class WrittenLight {
     const std::vector<mat4> world = scene::world_matrices(scene_);
     std::vector<geometry::Corners> corners;
     for (const scene::Instance& instance : scene_.instances) {
-      const scene::Mesh& mesh = scene_.meshes[static_cast<std::size_t>(instance.mesh)];
+      const scene::Mesh& mesh = scene_.meshes[instance.mesh];
       if (mesh.uvs[1].empty()) continue;
       for (const uvec3& t : mesh.triangles) {
         geometry::Corners& at = corners.emplace_back();
         std::array<vec2, 3>& uv = uvs_.emplace_back();
         for (int k = 0; k < 3; ++k) {
           const auto i = static_cast<std::size_t>(k);
-          at[i] = vec3(world[static_cast<std::size_t>(instance.node)] * vec4(mesh.positions[t[k]], 1));
+          at[i] = vec3(world[instance.node] * vec4(mesh.positions[t[k]], 1));
           uv[i] = mesh.uvs[1][t[k]];
         }
       }
@@ -55,12 +55,12 @@ class WrittenLight {
   /// Whether there is a lightmap at the point's front, and what it holds.
   bool at(const rays::SurfacePoint& point, vec3& out) const {
     const auto faces = [&](std::int32_t i) {
-      const geometry::Corners& c = tree_.triangles()[static_cast<std::size_t>(i)];
+      const geometry::Corners& c = tree_.triangles()[i];
       return glm::dot(glm::cross(c[1] - c[0], c[2] - c[0]), point.normal) > 0;
     };
     const geometry::TriangleTree::Found found = tree_.nearest(point.position, 1e-3f, faces);
     if (found.triangle < 0) return false;
-    const std::array<vec2, 3>& uv = uvs_[static_cast<std::size_t>(found.triangle)];
+    const std::array<vec2, 3>& uv = uvs_[found.triangle];
     const vec3& w = found.place.weight;
     out = lightmap::sample(atlas_, w.x * uv[0] + w.y * uv[1] + w.z * uv[2]);
     return true;

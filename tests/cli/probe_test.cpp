@@ -64,8 +64,7 @@ class ProbeTool : public testing::Test {
   static void expect_rgb(const json::Value& got, const vec3& wanted) {
     ASSERT_EQ(got.size(), 3u);
     for (int c = 0; c < 3; ++c)
-      EXPECT_NEAR(test::float_of(got[static_cast<std::size_t>(c)]), wanted[c],
-                  1e-5f * (1 + std::abs(wanted[c])));
+      EXPECT_NEAR(test::float_of(got[c]), wanted[c], 1e-5f * (1 + std::abs(wanted[c])));
   }
 
   const test::TempDir dir_;
@@ -282,7 +281,7 @@ TEST_F(ProbeTool, PreviewShowsOneRowAProbeAndOneColumnALayer) {
   ASSERT_EQ(sheet.width, 56);
   const char* names[] = {"self", "neighbour", "sum"};
   for (int c = 0; c < 3; ++c) {
-    const json::Value& column = result["columns"][static_cast<std::size_t>(c)];
+    const json::Value& column = result["columns"][c];
     EXPECT_EQ(column["layer"], names[c]);
     const float factor = std::exp2(test::float_of(column["exposure"]));
     for (int i = 0; i < 3; ++i) {

@@ -135,8 +135,7 @@ TEST_F(Animation, ChangesWhatMovesAndNothingElse) {
   scene::LightingState by_hand = still_;
   by_hand.lights[0].intensity = 4;
   const auto& groups = source_.light_groups();
-  by_hand.group_scales[static_cast<std::size_t>(std::ranges::find(groups, "cold") - groups.begin())] =
-      vec3(0.5f);
+  by_hand.group_scales[std::ranges::find(groups, "cold") - groups.begin()] = vec3(0.5f);
   scene::turn_surroundings(by_hand, scene_, pi / 2);
   EXPECT_EQ(animation.frame(0.5f), by_hand);
 }

@@ -87,8 +87,7 @@ TEST_F(Render, WritesThePictureThatWasAskedForAndTellsItsMean) {
   glm::dvec3 sum(0);
   for (int y = 0; y < 8; ++y)
     for (int x = 0; x < 12; ++x) sum += glm::dvec3(wanted.rgb(x, y));
-  for (int c = 0; c < 3; ++c)
-    EXPECT_NEAR(result["mean"][static_cast<std::size_t>(c)].number(), sum[c] / 96, 1e-12);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(result["mean"][c].number(), sum[c] / 96, 1e-12);
   EXPECT_THAT(text_here(command()),
               testing::MatchesRegex(".*o.exr: 12×8, 576 paths, [0-9]+ rays in [0-9.]+ s, mean radiance .*"));
 }

@@ -94,8 +94,8 @@ TEST_F(Web, WritesAFolderWhoseManifestKeepsToItsSchemaAndNamesEveryFile) {
   // The door has a place in the lightmaps, too.
   const scene::Scene scene = scene_io::load_scene(out_ + "/" + m["scene"].string());
   for (const scene::Instance& instance : scene.instances) {
-    const bool door = scene.nodes[static_cast<std::size_t>(instance.node)].name == "door";
-    EXPECT_FALSE(door && scene.meshes[static_cast<std::size_t>(instance.mesh)].uvs[1].empty());
+    const bool door = scene.nodes[instance.node].name == "door";
+    EXPECT_FALSE(door && scene.meshes[instance.mesh].uvs[1].empty());
   }
   EXPECT_NE(layer(m["lightmap"]["groups"][0], 0, m["lightmap"]),
             layer(m["lightmap"]["groups"][0], 1, m["lightmap"]));

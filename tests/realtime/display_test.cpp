@@ -50,7 +50,7 @@ class Display : public WithGl {
         const int up = around.height - 1 - y;
         if (x >= place.x && x < place.x + place.width && up >= place.y && up < place.y + place.height)
           continue;
-        EXPECT_EQ(all[static_cast<std::size_t>(4 * (y * around.width + x))], 51) << x << ", " << y;
+        EXPECT_EQ(all[4 * (y * around.width + x)], 51) << x << ", " << y;
       }
     }
     return gl::read_pixels(framebuffer_.id(), place);

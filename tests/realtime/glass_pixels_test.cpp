@@ -131,7 +131,7 @@ scene::Scene under_a_pane(const scene::Light* lamp, bool covered) {
   if (lamp) {
     add_stage_lamp(s, *lamp);
     if (lamp->type != scene::LightType::directional)
-      s.nodes[static_cast<std::size_t>(s.lights.back().node)].local.translation = {0.5f, 12, 0.5f};
+      s.nodes[s.lights.back().node].local.translation = {0.5f, 12, 0.5f};
   } else {
     s.environment.emplace().color = sky;
   }

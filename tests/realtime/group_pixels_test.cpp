@@ -22,7 +22,7 @@ struct GroupLight {
       : lit(points.pixels.size()), open(lit) {
     scene::Scene empty = scene;
     std::erase_if(empty.instances, [&](const scene::Instance& i) {
-      return !scene.materials[static_cast<std::size_t>(scene::instance_material(scene, i))].emissive();
+      return !scene.materials[scene::instance_material(scene, i)].emissive();
     });
     std::vector<rays::SurfacePoint> places;
     for (const PixelPoint& p : points.pixels) places.push_back({p.point.position, stage_normal(p.point)});
@@ -77,9 +77,7 @@ class GroupPixels : public WithGl {
           [&](std::size_t a, std::size_t b) { return std::abs(group.share(a) - group.share(b)) > 0.003; });
       for (std::size_t i = 0; i < edge.size(); ++i) edge[i] = edge[i] || found[i];
     }
-    const auto at_edge = [&](int x, int y) {
-      return edge[static_cast<std::size_t>(y * group_size.width + x)];
-    };
+    const auto at_edge = [&](int x, int y) { return edge[y * group_size.width + x]; };
     for (int y = 0; y < group_size.height; ++y) {
       for (int x = 0; x < group_size.width; ++x) {
         if (!at_edge(x, y)) continue;
@@ -134,7 +132,7 @@ TEST_F(GroupPixels, EveryGroupIsScaledAloneAndInColour) {
   scene::Scene s = stage(matte({0.9f, 0.3f, 0.5f}));
   add_stage_lamp(s, lamp(scene::LightType::point, {1, 0.3f, 0.2f}, 12, "one"));
   add_stage_lamp(s, lamp(scene::LightType::point, {0.2f, 1, 0.4f}, 9, "two"));
-  s.nodes[static_cast<std::size_t>(s.lights[1].node)].local.translation = {-1.9f, 2, 1.5f};
+  s.nodes[s.lights[1].node].local.translation = {-1.9f, 2, 1.5f};
   add_stage_lamp(s, lamp(scene::LightType::directional, {0.3f, 0.5f, 1}, 2, "three"));
   expect_truth(s, {{0.5f, 2, 1}, {3, 0.25f, 1.5f}, {1, 0.7f, 0.1f}}, 0, 0.3);
 }

@@ -100,9 +100,7 @@ class LookupPixels : public WithGl {
                                  const Differs& differs) {
     PictureBounds bounds = PictureBounds::around(truth, share, 3e-4f);
     const std::vector<bool> edges = points.edges(differs);
-    EXPECT_LT(bounds.widen(
-                  [&](int x, int y) { return edges[static_cast<std::size_t>(y * lookup_size.width + x)]; }),
-              0.25);
+    EXPECT_LT(bounds.widen([&](int x, int y) { return edges[y * lookup_size.width + x]; }), 0.25);
     // One texel of a probe's map tells whether it is seen: within 1.5 of them, 2 * 3.9 m / 254 wide, the next
     // wall may hide it. Closer still, rounding says which wall a pixel shows
     for (const PixelPoint& p : points.pixels) {
@@ -194,9 +192,7 @@ TEST_P(EveryWeight, InAnEmptyRoomEveryPixelIsTheCpus) {
   std::vector<int> chosen;
   for (const PixelPoint& p : points.pixels) {
     int best = -1;
-    const auto way = [&](int i) {
-      return probes.probes[static_cast<std::size_t>(i)].position - p.point.position;
-    };
+    const auto way = [&](int i) { return probes.probes[i].position - p.point.position; };
     for (int i = 0; i < static_cast<int>(probes.probes.size()); ++i) {
       if (glm::dot(way(i), p.point.normal) > 0 && (best < 0 || glm::length(way(i)) < glm::length(way(best))))
         best = i;
@@ -266,9 +262,7 @@ TEST_F(LookupPixels, WhatStandsBehindTheEndOfAListIsNoProbe) {
   PictureBounds bounds = PictureBounds::around(looked_up(points, *light), 1.5f * tile, 3e-4f);
   const std::vector<bool> edges =
       points.edges([&](std::size_t a, std::size_t b) { return nearest[a] != nearest[b]; });
-  EXPECT_LT(
-      bounds.widen([&](int x, int y) { return edges[static_cast<std::size_t>(y * lookup_size.width + x)]; }),
-      0.35);
+  EXPECT_LT(bounds.widen([&](int x, int y) { return edges[y * lookup_size.width + x]; }), 0.35);
   EXPECT_TRUE(picture_is(draw(renderer, scene, "", LookupMethod::light, WeightMethod::distance), bounds));
 }
 

@@ -86,7 +86,7 @@ TEST_F(Occlusion, OfAStepIsTheShareOfTheLobeBehindIt) {
     for (int x = 0; x < columns; ++x) {
       SCOPED_TRACE(testing::Message() << "column " << x << ", radius " << radius);
       const float place = (static_cast<float>(x) + 0.5f) / columns * width - 0.5f * width;
-      const double mean = found[static_cast<std::size_t>(x)];
+      const double mean = found[x];
       if (place > 0 || place < -radius) {
         EXPECT_EQ(mean, 1) << "nothing stands higher";
       } else if (place < -1.5f * width / columns) {

@@ -86,7 +86,7 @@ TEST_F(PictureList, OfDirectLightIsWhatItWas) {
   list_state("all", 2, 16, true);
   // The image's seam and its upper pole
   scene_.cameras[0].orthographic = false;
-  scene_.nodes[static_cast<std::size_t>(scene_.cameras[0].node)].local.rotation =
+  scene_.nodes[scene_.cameras[0].node].local.rotation =
       glm::quatLookAt(glm::normalize(vec3(-0.2f, 0.8f, 1)), vec3(0, 1, 0));
   draw("sky", {.view = View::direct});
   pictures_.expect("tests/realtime/expected/direct.txt");

@@ -117,7 +117,7 @@ inline void set_records(realtime::Renderer& renderer, const scene::Scene& scene,
 
 inline mat4 light_world(const scene::Scene& scene, std::size_t light) {
   const int node = scene.lights[light].node;
-  return node < 0 ? mat4(1) : scene::world_matrices(scene, 0)[static_cast<std::size_t>(node)];
+  return node < 0 ? mat4(1) : scene::world_matrices(scene, 0)[node];
 }
 
 inline probes::FittedSurfaces prepared(const scene::Scene& scene, const probes::FittedPoints& fitted,

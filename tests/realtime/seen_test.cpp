@@ -176,9 +176,7 @@ TEST_F(Views, DepthIsThatAlongTheAxis) {
     }),
                                                  1e-4f, 0);
     const std::vector<bool> corners = points.corners();
-    EXPECT_LT(bounds.widen(
-                  [&](int x, int y) { return corners[static_cast<std::size_t>(y * seen_size.width + x)]; }),
-              0.35);
+    EXPECT_LT(bounds.widen([&](int x, int y) { return corners[y * seen_size.width + x]; }), 0.35);
     EXPECT_TRUE(picture_is(draw(renderer, View::depth), bounds));
   }
 }

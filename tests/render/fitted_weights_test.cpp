@@ -69,8 +69,7 @@ struct Compared {
       }
       vec3& e = looked_up.emplace_back(0);
       for (const probes::ProbeWeight& entry : fitted.weights[p].used()) {
-        const sh::IrradianceSh function =
-            sh::irradiance_from_radiance(session.reflected()[static_cast<std::size_t>(entry.probe)]);
+        const sh::IrradianceSh function = sh::irradiance_from_radiance(session.reflected()[entry.probe]);
         std::vector<float> basis(function.values.size());
         sh::eval_basis(function.degree(), fitted.points[p].normal, basis);
         for (std::size_t k = 0; k < basis.size(); ++k) e += entry.weight * basis[k] * function.values[k];

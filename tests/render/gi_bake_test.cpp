@@ -122,7 +122,7 @@ TEST(GiBake, AShutDoorLetsNothingThroughAndAnOpenOneDoes) {
     int across = 0, within = 0, lit_in_b = 0;
     for (const probes::Probe& probe : set.probes) {
       for (const probes::Edge& edge : probe.edges) {
-        ++(in_b(probe) != in_b(set.probes[static_cast<std::size_t>(edge.from)]) ? across : within);
+        ++(in_b(probe) != in_b(set.probes[edge.from]) ? across : within);
       }
       lit_in_b += in_b(probe) && probe.self[0].x > 0;
     }

@@ -67,8 +67,7 @@ vec3 traced_mean(const scene::Scene& scene, const vec3& position) {
   for (int face = 0; face < 6; ++face) {
     for (int y = 0; y < 16; ++y) {
       for (int x = 0; x < 16; ++x)
-        sum += groups[0].reflected.faces[static_cast<std::size_t>(face)].rgb(x, y) *
-               static_cast<float>(texel_solid_angle(x, y, 16));
+        sum += groups[0].reflected.faces[face].rgb(x, y) * static_cast<float>(texel_solid_angle(x, y, 16));
     }
   }
   return sum / (4 * pi);

@@ -56,7 +56,7 @@ TEST(LinkViz, WithoutReflectionASphereIsItsDisc) {
   for (std::size_t i = 0; i < places.size(); ++i) {
     ASSERT_EQ(set.probes[i].edges.size(), places.size() - 1);
     for (const probes::Edge& e : set.probes[i].edges) {
-      const vec3 way = places[static_cast<std::size_t>(e.from)] - places[i];
+      const vec3 way = places[e.from] - places[i];
       const double sine = double(r) / double(glm::length(way));
       const double share = sine >= 1 ? 1 : (1 - std::sqrt(1 - sine * sine)) / 2;
       EXPECT_NEAR(double(e.transfer), share, 1e-5 * share) << i << " " << e.from;
@@ -136,7 +136,7 @@ TEST(LinkViz, AShutDoorLetsExactlyNothingThroughAnOpenOneAsMuchAsTracedPaths) {
     int count_across = 0, count_within = 0;
     for (const probes::Probe& probe : set.probes) {
       for (const probes::Edge& e : probe.edges) {
-        const bool crosses = in_b(probe) != in_b(set.probes[static_cast<std::size_t>(e.from)]);
+        const bool crosses = in_b(probe) != in_b(set.probes[e.from]);
         ++(crosses ? count_across : count_within);
         if (crosses) across += double(e.transfer);
       }
@@ -158,7 +158,7 @@ TEST(LinkViz, AShutDoorLetsExactlyNothingThroughAnOpenOneAsMuchAsTracedPaths) {
       double sum = 0;
       for (const probes::Probe& probe : bake::bake(tracer, set, paths, {}, report).probes) {
         for (const probes::Edge& e : probe.edges) {
-          if (in_b(probe) != in_b(set.probes[static_cast<std::size_t>(e.from)])) sum += double(e.transfer);
+          if (in_b(probe) != in_b(set.probes[e.from])) sum += double(e.transfer);
         }
       }
       traced_across.add(sum);
@@ -186,8 +186,7 @@ TEST(LinkViz, KeepsTheStrongestNeighboursOverTheThreshold) {
     std::vector<int> best = probes::select_neighbors(all.probes[i], {.neighbors = 2});
     std::ranges::sort(best);
     ASSERT_EQ(two.probes[i].edges.size(), 2u);
-    for (std::size_t k = 0; k < 2; ++k)
-      EXPECT_EQ(two.probes[i].edges[k], all.probes[i].edges[static_cast<std::size_t>(best[k])]);
+    for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(two.probes[i].edges[k], all.probes[i].edges[best[k]]);
     std::size_t over = 0;
     for (const probes::Edge& e : all.probes[i].edges) over += e.transfer > threshold;
     EXPECT_EQ(strong.probes[i].edges.size(), over);
@@ -213,8 +212,7 @@ TEST(LinkViz, TracedEdgesAreCutAlike) {
     std::vector<int> best = probes::select_neighbors(all.probes[i], {.neighbors = 2});
     std::ranges::sort(best);
     ASSERT_EQ(two.probes[i].edges.size(), 2u);
-    for (std::size_t k = 0; k < 2; ++k)
-      EXPECT_EQ(two.probes[i].edges[k], all.probes[i].edges[static_cast<std::size_t>(best[k])]);
+    for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(two.probes[i].edges[k], all.probes[i].edges[best[k]]);
   }
 }
 

@@ -52,7 +52,7 @@ TEST(PathScenes, ProbeInTheBuiltinBoxHoldsBandZeroOnly) {
         sh::CubeFaces faces;
         for (std::size_t f = 0; f < 6; ++f) faces[f] = map->faces[f].pixels;
         const sh::RadianceSh sh = sh::project_cube(2, map->size, faces);
-        for (int k = 0; k < 9; ++k) sum[static_cast<std::size_t>(k)] += static_cast<double>(sh[k].x);
+        for (int k = 0; k < 9; ++k) sum[k] += static_cast<double>(sh[k].x);
       }
     }
     for (std::size_t k = 0; k < 9; ++k) coefficients[k].add(sum[k]);

@@ -81,7 +81,7 @@ TEST_P(TracedLamp, LightsEveryPixelAsItsClosedFormSays) {
       return truth.lit[a] != truth.lit[b] || other_surface(truth.points.pixels[a], truth.points.pixels[b]);
     });
     expect_traced(traced(scene, nullptr, 1), truth.picture, 0.35,
-                  [&](int x, int y) { return edges[static_cast<std::size_t>(y * fine_size.width + x)]; });
+                  [&](int x, int y) { return edges[y * fine_size.width + x]; });
   }
 }
 
@@ -122,7 +122,7 @@ TEST(TracedPixels, LookedUpLightIsReflectedByPlaceNormalAndRoughness) {
   const std::vector<bool> edges = points.edges(
       [&](std::size_t a, std::size_t b) { return other_surface(points.pixels[a], points.pixels[b]); });
   expect_traced(traced(scene, &light, 2), truth, 0.25,
-                [&](int x, int y) { return edges[static_cast<std::size_t>(y * fine_size.width + x)]; });
+                [&](int x, int y) { return edges[y * fine_size.width + x]; });
 }
 
 /// Right, down and forward of each face of a cube map, as docs/conventions.md has them.

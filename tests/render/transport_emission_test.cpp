@@ -172,7 +172,7 @@ TEST(RelightEmission, BouncesBetweenWallsAndIsStoppedByADoor) {
   session.update();
   EXPECT_GT(session.reflected()[1][0].y, 0) << "room A";
   for (const int b : {3, 4, 5}) {
-    EXPECT_EQ(session.reflected()[static_cast<std::size_t>(b)][0], vec3(0)) << "room B, door shut";
+    EXPECT_EQ(session.reflected()[b][0], vec3(0)) << "room B, door shut";
     EXPECT_EQ(session.emitted(b)[0], vec3(0));
   }
   session.state.time = 1;

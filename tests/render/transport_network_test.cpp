@@ -289,8 +289,7 @@ TEST(TransportNetworkPose, NothingCrossesAShutDoor) {
       std::vector<Place> places;
       for (std::size_t s = 0; s < network.surfel_count(); ++s) {
         const transport::Surfel& surfel = network.surfels().surfels()[s];
-        const vec3 at(network.poses()[static_cast<std::size_t>(surfel.part)] *
-                      vec4(surfel.point.position, 1));
+        const vec3 at(network.poses()[surfel.part] * vec4(surfel.point.position, 1));
         places.push_back(place_of({at, surfel.point.normal}));
       }
       std::size_t count = 0;

@@ -66,7 +66,7 @@ std::vector<std::array<Samples, 3>> over_seeds(const LampRoom& room, const trace
     with_seed.push_back("seed=" + std::to_string(seed));
     const std::vector<vec3> e = Vpls(room.scene, source, with_seed).at(room.points);
     for (std::size_t i = 0; i < e.size(); ++i) {
-      for (int c = 0; c < 3; ++c) samples[i][static_cast<std::size_t>(c)].add(double(e[i][c]));
+      for (int c = 0; c < 3; ++c) samples[i][c].add(double(e[i][c]));
     }
   }
   return samples;
@@ -83,7 +83,7 @@ TEST_P(VplMean, IsWhatPathsFind) {
   const auto vpl = over_seeds(room, source, {"photons=256", "clamp=0", "depth=" + std::to_string(depth)}, 64);
   for (std::size_t i = 0; i < room.points.size(); ++i) {
     for (int c = 0; c < 3; ++c) {
-      const Samples& samples = vpl[i][static_cast<std::size_t>(c)];
+      const Samples& samples = vpl[i][c];
       EXPECT_TRUE(difference_is_noise(samples.mean() - double(traced[i].indirect[c]),
                                       samples.variance_of_mean() + double(traced[i].indirect_variance[c]),
                                       {1e-3, 2 * 3 * 3}, 1e-4 * samples.mean()))

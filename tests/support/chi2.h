@@ -89,7 +89,7 @@ template <class Draw, class Pdf>
       const vec3 local(static_cast<float>(r * std::cos(phi)), static_cast<float>(r * std::sin(phi)),
                        static_cast<float>(z));
       const double mass = static_cast<double>(pdf(frame.to_world(local))) * sample_solid_angle;
-      expected[static_cast<std::size_t>((i / q) * cells.azimuth + j / q)] += mass * cells.draws;
+      expected[(i / q) * cells.azimuth + j / q] += mass * cells.draws;
       inside += mass;
     }
   }

@@ -148,7 +148,7 @@ class CookedReference {
         continue;
       }
       for (const probes::ProbeWeight& probe : weights_[point].used()) {
-        const probes::IrradianceLookup& alone = alone_[static_cast<std::size_t>(probe.probe)];
+        const probes::IrradianceLookup& alone = alone_[probe.probe];
         e += weight * static_cast<double>(probe.weight) * glm::dvec3(alone.irradiance({vec3(0), at.normal}));
       }
     }

@@ -59,7 +59,7 @@ class FakeSource : public rays::RadianceSource {
               if (!meets(request.position, d, ghosts[j]) || !free(request.position, ghosts[j].center))
                 continue;
               const float value = 1 / static_cast<float>(spp);
-              image::Image& image = cubes[j].faces[static_cast<std::size_t>(face)];
+              image::Image& image = cubes[j].faces[face];
               image.set_rgb(x, y, image.rgb(x, y) + value);
               if (sink)
                 sink((face * n + y) % ghost_chunk_count, {static_cast<int>(j), d, -d, vec3(value * omega)});

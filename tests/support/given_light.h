@@ -25,7 +25,7 @@ class GivenLight final : public rays::DirectLight {
     return shadowed(group, point, box);
   }
   vec3 emitted(int, const rays::RayQuery&, float) const override { return vec3(0); }
-  float flux(int group) const override { return fluxes[static_cast<std::size_t>(group)]; }
+  float flux(int group) const override { return fluxes[group]; }
   std::optional<rays::Photon> emit(int group, const rays::PhotonNumbers& numbers) const override {
     return photon(group, numbers);
   }

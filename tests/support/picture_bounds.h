@@ -25,9 +25,7 @@ struct PictureBounds {
   std::vector<bool> left_out;  ///< pixels that are not compared, row by row; empty: all are
   int degrees = 0;             ///< of freedom of the variance, the samples less one; 0: it is known exactly
 
-  bool counts(int x, int y) const {
-    return left_out.empty() || !left_out[static_cast<std::size_t>(y * low.width + x)];
-  }
+  bool counts(int x, int y) const { return left_out.empty() || !left_out[y * low.width + x]; }
 
   /// Around exact values: a share of each and a constant, which a stated approximation may add.
   static PictureBounds around(const image::Image& values, float share, float constant) {
@@ -145,8 +143,7 @@ inline ::testing::AssertionResult picture_is(const image::Image& picture, const 
       found.push_back(
           {beyond / (std::abs(low) + std::abs(high) + 1e-6),
            fmt::format("{} x {} pixels at ({}, {}), {}: {:.5g}, not {:.5g} to {:.5g}, z {:.3g}", side, side,
-                       x0, y0, std::array{"red", "green", "blue"}[static_cast<std::size_t>(c)], value, low,
-                       high, z)});
+                       x0, y0, std::array{"red", "green", "blue"}[c], value, low, high, z)});
     }
   });
   if (found.empty()) return ::testing::AssertionSuccess();

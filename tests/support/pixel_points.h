@@ -60,7 +60,7 @@ struct PixelPoints {
   std::size_t index(const PixelPoint& pixel) const {
     return static_cast<std::size_t>(&pixel - pixels.data());
   }
-  const PixelPoint& at(int x, int y) const { return pixels[static_cast<std::size_t>(y * size.width + x)]; }
+  const PixelPoint& at(int x, int y) const { return pixels[y * size.width + x]; }
 
   /// A picture of `value(const PixelPoint&)` where anything stands, else black.
   template <class Value>

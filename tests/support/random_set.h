@@ -21,7 +21,7 @@ inline probes::FittedPoints random_fitted(std::uint64_t seed, int point_count, i
     fitted.points.push_back({10.0f * rng.uniform3(), glm::normalize(2.0f * rng.uniform3() - 1.0f)});
     probes::PointWeights& weights = fitted.weights.emplace_back();
     weights.count = i % (std::min(probe_count, probes::max_weights) + 1);
-    for (int k = 0; k < weights.count; ++k) weights.entries[static_cast<std::size_t>(k)] = {k, rng.uniform()};
+    for (int k = 0; k < weights.count; ++k) weights.entries[k] = {k, rng.uniform()};
   }
   return fitted;
 }

@@ -69,7 +69,7 @@ inline probes::ProbeSet permuted(const probes::ProbeSet& set, const std::vector<
   for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<int>(i);
   for (std::size_t i = 0; i < order.size(); ++i) {
     probes::Probe& probe = result.probes[i] = set.probes[order[i]];
-    for (probes::Edge& edge : probe.edges) edge.from = place[static_cast<std::size_t>(edge.from)];
+    for (probes::Edge& edge : probe.edges) edge.from = place[edge.from];
     std::sort(probe.edges.begin(), probe.edges.end(),
               [](const probes::Edge& a, const probes::Edge& b) { return a.from < b.from; });
   }

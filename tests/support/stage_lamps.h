@@ -97,7 +97,7 @@ struct LampPicture {
     });
     edge = points.edges([&](std::size_t a, std::size_t b) { return lit[a] != lit[b]; });
   }
-  bool edge_at(int x, int y) const { return edge[static_cast<std::size_t>(y * points.size.width + x)]; }
+  bool edge_at(int x, int y) const { return edge[y * points.size.width + x]; }
 
   trace::TransportScene source;
   PixelPoints points;

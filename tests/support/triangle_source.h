@@ -26,10 +26,9 @@ class TriangleSource : public UnlitSource {
         if (fresh) parts_.emplace_back().name = scene.nodes[node].name, parts_.back().node = instance.node;
         index = at->second;
       }
-      const scene::Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+      const scene::Mesh& mesh = scene.meshes[instance.mesh];
       const int material = scene::instance_material(scene, instance);
-      const scene::Material look =
-          material < 0 ? scene::Material{} : scene.materials[static_cast<std::size_t>(material)];
+      const scene::Material look = material < 0 ? scene::Material{} : scene.materials[material];
       for (const uvec3& t : mesh.triangles) {
         Triangle triangle{{}, look.emission, look.base_color, look.double_sided};
         for (int k = 0; k < 3; ++k) {
@@ -52,7 +51,7 @@ class TriangleSource : public UnlitSource {
   float duration() const override { return scene::animation_duration(scene_); }
   mat4 part_pose(int part, float time) const override {
     if (part == 0) return mat4(1);
-    return scene::world_matrices(scene_, time)[static_cast<std::size_t>(at(part).node)];
+    return scene::world_matrices(scene_, time)[at(part).node];
   }
 
   void intersect(int part, std::span<const rays::RayQuery> rays,
@@ -152,7 +151,7 @@ class TriangleSource : public UnlitSource {
     Shapes shapes;  ///< of the triangles
     scene::Bounds bounds;
   };
-  const Part& at(int part) const { return parts_[static_cast<std::size_t>(part)]; }
+  const Part& at(int part) const { return parts_[part]; }
 
   scene::Scene scene_;
   std::vector<Part> parts_;

@@ -93,16 +93,16 @@ BenchFrameResult run_bench_frame(const BenchFrameOptions& o, const Control& cont
     if (i == 0) resident_before = resident_bytes();
     if (o.ratio) {
       const double ms = renderer.draw(pose, direct_only, target).cpu_ms;
-      if (i >= 0) result.direct_ms[static_cast<std::size_t>(i)] = ms;
+      if (i >= 0) result.direct_ms[i] = ms;
     }
     const realtime::FrameStats& stats = renderer.draw(pose, settings, target);
     stage.advance(1);
     for (const realtime::PassTime& pass : stats.passes) {
       std::vector<double>& times = result.pass_ms.try_emplace(pass.name, count, 0).first->second;
-      if (i >= 0) times[static_cast<std::size_t>(i)] = pass.gpu_ms;
+      if (i >= 0) times[i] = pass.gpu_ms;
     }
     if (i < 0) continue;
-    result.frame_ms[static_cast<std::size_t>(i)] = stats.cpu_ms;
+    result.frame_ms[i] = stats.cpu_ms;
     result.largest_upload = std::max(result.largest_upload, stats.bytes_uploaded);
     result.draw_calls = stats.draw_calls;
     result.samples_shaded = stats.samples_shaded;

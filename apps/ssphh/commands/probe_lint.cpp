@@ -15,7 +15,7 @@ namespace ssphh::app {
 namespace {
 
 const std::string& probe_name(const ProbeLintResult& result, const study::LintProblem& problem) {
-  return result.set.probes[static_cast<std::size_t>(problem.probe)].name;
+  return result.set.probes[problem.probe].name;
 }
 
 }  // namespace

@@ -106,7 +106,7 @@ Track read_track(const std::string& spec, const rays::TransportSource& source, c
       if (std::ranges::count(names, name) > 1)
         throw Error(where, fmt::format("several lights are named \"{}\"", name),
                     "give them names of their own, or scale their group");
-      const scene::LightType type = scene.lights[static_cast<std::size_t>(track.target)].type;
+      const scene::LightType type = scene.lights[track.target].type;
       if (track.property == TrackProperty::position && type == scene::LightType::directional)
         throw Error(where, "a directional light has no position", "animate its direction");
       if (track.property == TrackProperty::direction &&

@@ -119,7 +119,7 @@ std::string failure_of(const Cell& cell, const report::Expansion& expansion, con
 }
 
 const report::PlanMethod& method_of(const report::Plan& plan, const Cell& cell) {
-  return cell.method < 0 ? plan.reference : plan.methods[static_cast<std::size_t>(cell.method)];
+  return cell.method < 0 ? plan.reference : plan.methods[cell.method];
 }
 
 // Steps and their numbers, as far as they ran.

@@ -59,7 +59,7 @@ SceneInfo run_scene_info(const SceneOptions& options, const Control&) {
     return static_cast<std::size_t>(
         std::ranges::count_if(scene.instances, [&](const scene::Instance& instance) {
           const int material = scene::instance_material(scene, instance);
-          return material >= 0 && has(scene.materials[static_cast<std::size_t>(material)]);
+          return material >= 0 && has(scene.materials[material]);
         }));
   };
   SceneInfo info;

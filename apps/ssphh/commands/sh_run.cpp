@@ -115,8 +115,7 @@ ShReconstructResult run_sh_reconstruct(const ShReconstructOptions& o, const Cont
         const int f = static_cast<int>(row) / face, y = static_cast<int>(row) % face;
         for (int x = 0; x < face; ++x) {
           const vec3 d = texel_direction(f, x, y, face);
-          cube.faces[static_cast<std::size_t>(f)].set_rgb(
-              x, y, o.irradiance ? sh::eval(irradiance, d) : sh::eval(radiance, d));
+          cube.faces[f].set_rgb(x, y, o.irradiance ? sh::eval(irradiance, d) : sh::eval(radiance, d));
         }
       },
       control);
@@ -183,7 +182,7 @@ std::string to_text(const ShEvalResult& result, const ShEvalOptions& o) {
   for (int l = 0; l <= o.degree; ++l) {
     for (int m = -l; m <= l; ++m) {
       text += fmt::format("{}{:3} {:4}  {:>12.8f}", text.empty() ? "" : "\n", l, m,
-                          result.values[static_cast<std::size_t>(sh::coefficient_index(l, m))]);
+                          result.values[sh::coefficient_index(l, m)]);
     }
   }
   return text;

@@ -110,10 +110,10 @@ struct PageGroup {
 float direct_share(const scene::Scene& scene, const scene::Instance& instance) {
   const int index = scene::instance_material(scene, instance);
   if (index < 0) return 1;
-  const scene::Material& material = scene.materials[static_cast<std::size_t>(index)];
+  const scene::Material& material = scene.materials[index];
   float metallic = material.metallic, roughness = std::abs(material.specular_roughness);
   if (const int t = material.metallic_roughness_texture.texture; t >= 0 && metallic > 0) {
-    const std::vector<std::uint8_t>& texels = scene.textures[static_cast<std::size_t>(t)].rgba;
+    const std::vector<std::uint8_t>& texels = scene.textures[t].rgba;
     double green = 0, blue = 0;
     for (std::size_t i = 0; i + 3 < texels.size(); i += 4) green += texels[i + 1], blue += texels[i + 2];
     const double whole = 255.0 * static_cast<double>(texels.size()) / 4;
@@ -279,7 +279,7 @@ std::string title_of(const WebOptions& o) {
 scene::Scene named_emitters(scene::Scene scene) {
   for (scene::Instance& instance : scene.instances) {
     const int material = scene::instance_material(scene, instance);
-    if (material >= 0 && scene.materials[static_cast<std::size_t>(material)].emissive())
+    if (material >= 0 && scene.materials[material].emissive())
       instance.light_group = scene::light_group(scene, instance);
   }
   for (scene::Light& light : scene.lights) light.group = scene::light_group(light);

@@ -66,14 +66,14 @@ LightTable light_table(const std::vector<LightColumn>& columns, int width, float
   table.image = image::Image(count * (width + gap) - gap, rows * step - gap);
   std::ranges::fill(table.image.pixels, 0.5f);
   for (int c = 0; c < count; ++c) {
-    const LightColumn& column = columns[static_cast<std::size_t>(c)];
+    const LightColumn& column = columns[c];
     table.exposures.push_back(automatic[column.exposed_as] + exposure);
     const float factor = std::exp2(table.exposures.back());
     for (int row = 0; row < rows; ++row) {
       const auto r = static_cast<std::size_t>(row);
       const int left = c * (width + gap), top = row * step + above;
       if (above > 0) write_label(table.image, left, row * step + 1, width, column.labels[r], vec3(0));
-      const vec3* color = pictures[static_cast<std::size_t>(c)][r].data();
+      const vec3* color = pictures[c][r].data();
       for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x)
           table.image.set_rgb(left + x, top + y, glm::max(factor * *color++, vec3(0)));

@@ -63,7 +63,7 @@ image::Image basis_sheet(int degree, int size, const Control& control) {
       lobe.center = cell * (static_cast<float>(m) * view.right +
                             (0.5f * static_cast<float>(degree) - static_cast<float>(l)) * view.up);
       lobe.values.assign(static_cast<std::size_t>(sh::coefficient_count(l)), 0.0f);
-      lobe.values[static_cast<std::size_t>(sh::coefficient_index(l, m))] = 1;
+      lobe.values[sh::coefficient_index(l, m)] = 1;
       lobes.lobes.push_back(std::move(lobe));
     }
   }

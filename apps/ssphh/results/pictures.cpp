@@ -58,8 +58,7 @@ std::array<double, 3> mean_radiance(const image::Image& picture) {
   std::array<double, 3> mean{};
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {
-      for (int c = 0; c < 3; ++c)
-        mean[static_cast<std::size_t>(c)] += static_cast<double>(picture.rgb(x, y)[c]);
+      for (int c = 0; c < 3; ++c) mean[c] += static_cast<double>(picture.rgb(x, y)[c]);
     }
   }
   for (double& m : mean) m /= static_cast<double>(picture.width) * picture.height;

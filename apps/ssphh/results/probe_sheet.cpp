@@ -59,9 +59,9 @@ ProbeSheet edge_sheet(const probes::ProbeSet& set, const std::string& name, int 
 
   std::vector<sh::RadianceSh> products, sums;
   for (const int e : order) {
-    const probes::Edge& edge = probe.edges[static_cast<std::size_t>(e)];
+    const probes::Edge& edge = probe.edges[e];
     sh::RadianceSh product(set.degree);
-    probes::add_neighbor(product, edge, set.probes[static_cast<std::size_t>(edge.from)].self, h.op);
+    probes::add_neighbor(product, edge, set.probes[edge.from].self, h.op);
     sums.push_back(sums.empty() ? probe.self : sums.back());
     sums.back() += product;
     products.push_back(std::move(product));
@@ -72,8 +72,8 @@ ProbeSheet edge_sheet(const probes::ProbeSet& set, const std::string& name, int 
   std::vector<LightColumn> columns = {{{}, sum}, {{}, 1}, {{}, sum}, {{}, 3}, {{}, sum}};
   std::vector<std::string> rows;
   for (std::size_t r = 0; r < order.size(); ++r) {
-    const probes::Edge& edge = probe.edges[static_cast<std::size_t>(order[r])];
-    const probes::Probe& from = set.probes[static_cast<std::size_t>(edge.from)];
+    const probes::Edge& edge = probe.edges[order[r]];
+    const probes::Probe& from = set.probes[edge.from];
     const sh::RadianceSh* lights[] = {&probe.self, &edge.h, &from.self, &products[r], &sums[r]};
     const bool last = r + 1 == order.size();
     const std::string labels[] = {

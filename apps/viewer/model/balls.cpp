@@ -75,8 +75,7 @@ void BallShader::shade(const probes::ProbeSet& set, std::size_t i, Ball ball, st
   if (ball == Ball::irradiance) {
     for (int l = 0; l <= function->degree(); ++l) {
       const auto factor = static_cast<float>(sh::cosine_band_factor(l) / pi_d);
-      for (int m = -l; m <= l; ++m)
-        coefficients[static_cast<std::size_t>(sh::coefficient_index(l, m))] *= factor;
+      for (int m = -l; m <= l; ++m) coefficients[sh::coefficient_index(l, m)] *= factor;
     }
   }
   for (std::size_t v = 0; v < out.size(); ++v) {

@@ -45,8 +45,7 @@ View start_view(const Document& document, const std::string& camera) {
   if (named != cameras.end() && named->view) return *named->view;
   const bool of_scene = named != cameras.end();
   const scene::CameraPose pose = scene::camera_pose(
-      *document.opened,
-      of_scene ? document.opened->cameras[static_cast<std::size_t>(named->source)].name : "", document.time);
+      *document.opened, of_scene ? document.opened->cameras[named->source].name : "", document.time);
   const vec3 eye(pose.world[3]);
   const float distance = document.bounds.empty() ? 3 : glm::distance(eye, document.bounds.center());
   return view_of(pose, std::max(distance, 0.1f));

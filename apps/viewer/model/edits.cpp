@@ -66,8 +66,8 @@ void check_name(const char* what, const List& list, std::size_t own, const std::
 template <class List, class Same>
 int same_in(const List& before, int index, const List& after, const Same& same) {
   if (before.size() == after.size()) return index;
-  const auto found = std::ranges::find_if(
-      after, [&](const auto& other) { return same(other, before[static_cast<std::size_t>(index)]); });
+  const auto found =
+      std::ranges::find_if(after, [&](const auto& other) { return same(other, before[index]); });
   return found == after.end() ? -1 : static_cast<int>(found - after.begin());
 }
 

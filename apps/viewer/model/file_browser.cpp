@@ -140,7 +140,7 @@ std::optional<fs::path> FileBrowser::choose() {
   const bool marked = selected_ >= 0 && (!typed_last_ || typed_.empty() || begun);
   if (!marked && typed_.empty())
     throw Error("file", "none is chosen", "choose one in the list, or type its name");
-  const fs::path path = whole(marked ? entries_[static_cast<std::size_t>(selected_)].name : typed_);
+  const fs::path path = whole(marked ? entries_[selected_].name : typed_);
   if (!fs::is_directory(path, ignored)) return path;
   enter(path);
   return {};

@@ -10,13 +10,13 @@
 namespace ssphh::viewer {
 
 void History1d::add(float value) {
-  values_[static_cast<std::size_t>(next_)] = value;
+  values_[next_] = value;
   next_ = (next_ + 1) % length;
   count_ = std::min(count_ + 1, length);
 }
 
 float History1d::at(int i) const {
-  return values_[static_cast<std::size_t>((next_ - count_ + i + length) % length)];
+  return values_[(next_ - count_ + i + length) % length];
 }
 
 float History1d::quantile(double q) const {
@@ -24,7 +24,7 @@ float History1d::quantile(double q) const {
   std::array<float, length> sorted = values_;  // Unused places stand at the end until all are in use.
   std::sort(sorted.begin(), sorted.begin() + count_);
   const int rank = static_cast<int>(std::ceil(q * count_));
-  return sorted[static_cast<std::size_t>(std::clamp(rank, 1, count_) - 1)];
+  return sorted[std::clamp(rank, 1, count_) - 1];
 }
 
 void FrameTimes::add(const std::string& stage, double ms) {

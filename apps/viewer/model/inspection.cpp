@@ -50,9 +50,9 @@ std::optional<InspectedSurface> inspect_surface(const scene::Scene& scene, const
   const std::vector<mat4> worlds = scene::world_matrices(scene, time);
   const auto picked = pick_body(scene, worlds, ray);
   if (!picked) return {};
-  const scene::Instance& instance = scene.instances[static_cast<std::size_t>(picked->instance)];
-  const scene::Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-  const mat4& world = worlds[static_cast<std::size_t>(instance.node)];
+  const scene::Instance& instance = scene.instances[picked->instance];
+  const scene::Mesh& mesh = scene.meshes[instance.mesh];
+  const mat4& world = worlds[instance.node];
   InspectedSurface out;
   out.distance = picked->distance;
   out.position = ray.origin + picked->distance * ray.direction;
@@ -71,8 +71,7 @@ std::optional<InspectedSurface> inspect_surface(const scene::Scene& scene, const
   out.normal = surface.normal;
   out.face_normal = surface.geometric_normal;
   if (material < 0) return out;
-  const scene::Material &before = scene.materials[static_cast<std::size_t>(material)],
-                        &now = edits.materials[static_cast<std::size_t>(material)];
+  const scene::Material &before = scene.materials[material], &now = edits.materials[material];
   out.material = now.name.empty() ? fmt::format("material {}", material) : now.name;
   // Textures multiply the colour, which may have been edited.
   for (int c = 0; c < 3; ++c) {
@@ -102,7 +101,7 @@ InspectedLight inspect_light(const probes::ProbeSet& set, const probes::LookupPa
   const std::shared_ptr<const probes::LookupWeights> weights = probes::make_weights(places, sees, how);
   const probes::ProbeWeights found = weights->at(at);
   for (const probes::ProbeWeight& w : found.used())
-    out.shares.push_back({set.probes[static_cast<std::size_t>(w.probe)].name, w.weight});
+    out.shares.push_back({set.probes[w.probe].name, w.weight});
   sort_by_weight(out.shares);
   out.irradiance = probes::IrradianceLookup(set, weights, by_probes).irradiance(at);
   return out;

@@ -46,7 +46,7 @@ void place(json::Value& entry, const mat4& world, bool turned) {
 
 /// Hangs on the node, where that has a name of its own; else false.
 bool hang_on(json::Value& entry, const scene::Scene& scene, int node, bool turned) {
-  const std::string& name = scene.nodes[static_cast<std::size_t>(node)].name;
+  const std::string& name = scene.nodes[node].name;
   if (name.empty() || std::ranges::count(scene.nodes, name, &scene::Node::name) > 1) return false;
   entry["node"] = name;
   if (turned) entry["direction"] = vector({0, 0, -1});
@@ -80,15 +80,14 @@ void add_list(json::Value& overlay, const char* key, const List& now, const Own&
   std::vector<bool> kept(own.size(), false);
   for (std::size_t i = 0; i < now.size(); ++i) {
     if (now[i].source < 0) continue;
-    kept[static_cast<std::size_t>(now[i].source)] = true;
-    if (changed(i)) out.insert(own[static_cast<std::size_t>(now[i].source)].name);
+    kept[now[i].source] = true;
+    if (changed(i)) out.insert(own[now[i].source].name);
   }
   for (std::size_t i = 0; i < own.size(); ++i)
     if (!kept[i]) out.insert(own[i].name);
   for (const std::string& name : out) overlay["without"][key].push_back(name);
   for (std::size_t i = 0; i < now.size(); ++i) {
-    if (now[i].source < 0 || out.contains(own[static_cast<std::size_t>(now[i].source)].name))
-      overlay[key].push_back(entry(i));
+    if (now[i].source < 0 || out.contains(own[now[i].source].name)) overlay[key].push_back(entry(i));
   }
 }
 
@@ -99,7 +98,7 @@ void add_lights(json::Value& overlay, const Document& document, bool sun_of_sky)
   const std::vector<scene::LightState> before = scene::lighting_at(own, document.time).lights;
   const int sun = sun_of_sky ? scene::sun_light(*document.opened) : -1;
   const auto moved = [&](std::size_t i) {
-    return edits[i].source < 0 || states[i].world != before[static_cast<std::size_t>(edits[i].source)].world;
+    return edits[i].source < 0 || states[i].world != before[edits[i].source].world;
   };
   const auto changed = [&](std::size_t i) {
     const auto source = static_cast<std::size_t>(edits[i].source);
@@ -113,7 +112,7 @@ void add_lights(json::Value& overlay, const Document& document, bool sun_of_sky)
     json::Value entry = {{"name", lamp.name}, {"type", std::string(name_of(lamp.type))}};
     if (!lamp.group.empty()) entry["light_group"] = lamp.group;
     const bool turned = has_direction(lamp.type);
-    if (moved(i) || !hang_on(entry, own, own.lights[static_cast<std::size_t>(edits[i].source)].node, turned))
+    if (moved(i) || !hang_on(entry, own, own.lights[edits[i].source].node, turned))
       place(entry, states[i].world, turned);
     entry["color"] = vector(states[i].color);
     entry["intensity"] = number(states[i].intensity);
@@ -134,13 +133,10 @@ void add_sphls(json::Value& overlay, const Document& document) {
   const std::vector<SphlEdit>& edits = document.edits().sphls;
   const std::vector<SphlEdit> before = edits_of(own).sphls;
   const std::vector<mat4> world = scene::world_matrices(own, document.time);
-  const auto changed = [&](std::size_t i) {
-    return edits[i] != before[static_cast<std::size_t>(edits[i].source)];
-  };
+  const auto changed = [&](std::size_t i) { return edits[i] != before[edits[i].source]; };
   add_list(overlay, "sphls", edits, own.sphls, changed, [&](std::size_t i) {
     json::Value entry = {{"name", edits[i].name}};
-    const bool there = !edits[i].position &&
-                       hang_on(entry, own, own.sphls[static_cast<std::size_t>(edits[i].source)].node, false);
+    const bool there = !edits[i].position && hang_on(entry, own, own.sphls[edits[i].source].node, false);
     entry["position"] = vector(there ? vec3(0) : sphl_position(own, world, edits[i]));
     entry["radius"] = number(edits[i].radius);
     entry["enabled"] = edits[i].enabled;
@@ -152,12 +148,11 @@ void add_cameras(json::Value& overlay, const Document& document) {
   const scene::Scene& own = *document.opened;
   const std::vector<CameraEdit>& edits = document.edits().cameras;
   const auto changed = [&](std::size_t i) {
-    return edits[i].view || edits[i].name != own.cameras[static_cast<std::size_t>(edits[i].source)].name;
+    return edits[i].view || edits[i].name != own.cameras[edits[i].source].name;
   };
   add_list(overlay, "cameras", edits, own.cameras, changed, [&](std::size_t i) {
     const CameraEdit& edit = edits[i];
-    scene::Camera camera =
-        edit.source >= 0 ? own.cameras[static_cast<std::size_t>(edit.source)] : scene::Camera{};
+    scene::Camera camera = edit.source >= 0 ? own.cameras[edit.source] : scene::Camera{};
     json::Value entry = {{"name", edit.name}};
     if (edit.view) {
       const scene::CameraPose pose = pose_of(*edit.view);
@@ -245,8 +240,8 @@ json::Value overlay_of(const Document& document, const fs::path& folder) {
   const int sun = edits.sky ? scene::sun_light(*document.scene) : -1;
   bool of_sky = sun >= 0 && edits.environment_rotation == 0;
   if (of_sky) {
-    const LightEdit& edit = edits.lights[static_cast<std::size_t>(sun)];
-    const scene::Light& own = document.scene->lights[static_cast<std::size_t>(sun)];
+    const LightEdit& edit = edits.lights[sun];
+    const scene::Light& own = document.scene->lights[sun];
     of_sky = !edit.world && edit.on && edit.color == own.color && edit.intensity == own.intensity;
   }
   add_lights(overlay, document, of_sky);

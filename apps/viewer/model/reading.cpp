@@ -40,7 +40,7 @@ StopHistogram stop_histogram(const image::Image& radiance, float exposure) {
     } else if (at >= static_cast<float>(out.bins.size())) {
       ++out.brighter;
     } else {
-      ++out.bins[static_cast<std::size_t>(at)];
+      ++out.bins[at];
     }
   }
   const float share = counted > 0 ? 1 / static_cast<float>(counted) : 0;

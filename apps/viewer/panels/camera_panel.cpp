@@ -40,7 +40,7 @@ void draw_cameras(App& app) {
   const auto count = static_cast<int>(app.document.edits().cameras.size());
   if (app.camera >= count) app.camera = -1;
   for (int i = 0; i < count; ++i) {
-    const std::string name = app.document.edits().cameras[static_cast<std::size_t>(i)].name;
+    const std::string name = app.document.edits().cameras[i].name;
     ImGui::PushID(i);
     if (ImGui::Selectable(name.empty() ? "(no name)" : name.c_str(), app.camera == i)) {
       app.camera = i;

@@ -59,7 +59,7 @@ bool draw_list(FileBrowser& browser, float height, bool scroll) {
   const auto& entries = browser.entries();
   if (entries.empty()) note(fmt::format("Nothing here ends with {}.", fmt::join(browser.endings(), " ")));
   for (int i = 0; i < static_cast<int>(entries.size()); ++i) {
-    const FileBrowser::Entry& entry = entries[static_cast<std::size_t>(i)];
+    const FileBrowser::Entry& entry = entries[i];
     const std::string label = entry.name + (entry.folder ? "/" : "");
     ImGui::PushID(i);
     if (ImGui::Selectable(label.c_str(), i == browser.selected(), ImGuiSelectableFlags_AllowDoubleClick)) {

@@ -141,8 +141,8 @@ void draw_neighbors(App& app, const probes::Probe& p) {
   int chosen = -1;
   while (clipper.Step()) {
     for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
-      const probes::Edge& edge = *edges[static_cast<std::size_t>(i)];
-      const std::string& name = app.light.set().probes[static_cast<std::size_t>(edge.from)].name;
+      const probes::Edge& edge = *edges[i];
+      const std::string& name = app.light.set().probes[edge.from].name;
       ImGui::PushID(i);
       if (ImGui::Selectable(fmt::format("{:.5f}  {}", edge.transfer, name).c_str()))
         chosen = sphl_of_probe(app, edge.from);
@@ -170,7 +170,7 @@ void draw_selected(App& app) {
   if (ImGui::Button("Delete")) return app.delete_selection();
   const int probe = probe_of_sphl(app, app.selection.index);
   if (probe < 0) return;
-  const probes::Probe& p = app.light.set().probes[static_cast<std::size_t>(probe)];
+  const probes::Probe& p = app.light.set().probes[probe];
   const vec3 mean = p.self.empty() ? vec3(0) : p.self[0] * 0.28209479f;
   ImGui::TextWrapped("mean radiance  %.3g %.3g %.3g", mean.x, mean.y, mean.z);
   ImGui::TextWrapped("degree %d, %zu edges", p.self.degree(), p.edges.size());
@@ -178,7 +178,7 @@ void draw_selected(App& app) {
   if (!p.self.empty()) draw_coefficients(p.self);
   if (app.light.set().hierarchy) {
     note("with its neighbours' light:");
-    draw_coefficients(app.light.set().hierarchy->sum[static_cast<std::size_t>(probe)]);
+    draw_coefficients(app.light.set().hierarchy->sum[probe]);
   }
 }
 
@@ -192,13 +192,11 @@ void draw_list(App& app) {
   while (clipper.Step()) {
     for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
       ImGui::PushID(i);
-      bool enabled = sphls[static_cast<std::size_t>(i)].enabled;
+      bool enabled = sphls[i].enabled;
       if (ImGui::Checkbox("##enabled", &enabled))
-        app.document.edit_at_once("switch SPHL",
-                                  [&](Edits& e) { e.sphls[static_cast<std::size_t>(i)].enabled = enabled; });
+        app.document.edit_at_once("switch SPHL", [&](Edits& e) { e.sphls[i].enabled = enabled; });
       ImGui::SameLine();
-      if (ImGui::Selectable(sphls[static_cast<std::size_t>(i)].name.c_str(),
-                            app.selection == Selection{Kind::sphl, i})) {
+      if (ImGui::Selectable(sphls[i].name.c_str(), app.selection == Selection{Kind::sphl, i})) {
         app.selection = {Kind::sphl, i};
         app.settings.balls = true;
       }

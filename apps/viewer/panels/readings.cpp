@@ -28,7 +28,7 @@ void draw_bins(const StopHistogram& h, const ImVec2& from, const ImVec2& size, f
   const float step = size.x / static_cast<float>(count);
   float before = 0;
   for (int i = 0; i < count; ++i) {
-    const float tall = size.y * std::min(h.bins[static_cast<std::size_t>(i)] / most, 1.0f);
+    const float tall = size.y * std::min(h.bins[i] / most, 1.0f);
     const float x = from.x + step * static_cast<float>(i), y = from.y + size.y;
     if (filled && tall > 0)
       list.AddRectFilled({x, y - tall}, {x + step, y},

@@ -36,7 +36,7 @@ void entry(App& app, const Outliner& o, const Selection& self, const std::string
 }
 
 bool holds(const Outliner& o, int node, int wanted) {
-  return std::ranges::any_of(o.tree.children[static_cast<std::size_t>(node)],
+  return std::ranges::any_of(o.tree.children[node],
                              [&](int child) { return child == wanted || holds(o, child, wanted); });
 }
 
@@ -102,15 +102,15 @@ void draw_scene_panel(App& app) {
   });
   part(o, "Lamps", Kind::light, app.selection, scene.lights.size(), [&] {
     for (int i = 0; i < static_cast<int>(scene.lights.size()); ++i)
-      entry(app, o, {Kind::light, i}, scene.lights[static_cast<std::size_t>(i)].name);
+      entry(app, o, {Kind::light, i}, scene.lights[i].name);
   });
   part(o, "SPHLs", Kind::sphl, app.selection, edits.sphls.size(), [&] {
     for (int i = 0; i < static_cast<int>(edits.sphls.size()); ++i)
-      entry(app, o, {Kind::sphl, i}, edits.sphls[static_cast<std::size_t>(i)].name);
+      entry(app, o, {Kind::sphl, i}, edits.sphls[i].name);
   });
   part(o, "Materials", Kind::material, app.selection, edits.materials.size(), [&] {
     for (int i = 0; i < static_cast<int>(edits.materials.size()); ++i) {
-      const std::string& name = edits.materials[static_cast<std::size_t>(i)].name;
+      const std::string& name = edits.materials[i].name;
       entry(app, o, {Kind::material, i}, name.empty() ? fmt::format("material {}", i) : name);
     }
   });

@@ -108,8 +108,7 @@ class BallsGlTest : public test::WithGl {
         for (int c = 0; c < 3; ++c)
           // A step of the 8 bits, and what the mesh's corners cut off: 1 − cos(3°) of the light and of the
           // rim's place.
-          ASSERT_NEAR(got[static_cast<std::size_t>(4 * (y * size + x) + c)], 255 * wanted.color[c], 7)
-              << x << ' ' << y;
+          ASSERT_NEAR(got[4 * (y * size + x) + c], 255 * wanted.color[c], 7) << x << ' ' << y;
       }
     }
     EXPECT_GT(compared, size * size * 3 / 4);
@@ -158,7 +157,7 @@ TEST_F(BallsGlTest, EachPixelIsTheBallsLightIntoItsDirection) {
   const std::vector<std::uint8_t> lobe = draw();
   const auto covered = [&](float x) {  // in the plane of the middle
     const int column = static_cast<int>(size * (0.5f + x / 3));
-    return std::abs(lobe[static_cast<std::size_t>(4 * (size / 2 * size + column) + 2)] - 153) > 10;
+    return std::abs(lobe[4 * (size / 2 * size + column) + 2] - 153) > 10;
   };
   EXPECT_TRUE(covered(0.3f * 1.6f) && covered(-0.3f * 0.2f));
   EXPECT_FALSE(covered(0.3f * 2.0f) || covered(-0.3f * 0.4f));

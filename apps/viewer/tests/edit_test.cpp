@@ -160,7 +160,7 @@ TEST(Edits, MovedThingsAreWhereTheyWerePut) {
   EXPECT_EQ(places[5].position, vec3(2, 2, 1));
   EXPECT_EQ(places[5].radius, 0.25f);
   const auto world = scene::world_matrices(scene, 0.7f);
-  EXPECT_EQ(light_position(world[static_cast<std::size_t>(scene.lights[0].node)]), vec3(1, 2, 0.5f));
+  EXPECT_EQ(light_position(world[scene.lights[0].node]), vec3(1, 2, 0.5f));
 }
 
 TEST(Edits, OfASceneAreItsOwnValues) {

@@ -43,7 +43,7 @@ TEST(Inspection, OfASurfaceTellsWhatStandsThere) {
   const std::vector<mat4> world = scene::world_matrices(scene, 0);
   const auto body = pick_body(scene, world, ray);
   ASSERT_TRUE(body);
-  const scene::Instance& instance = scene.instances[static_cast<std::size_t>(body->instance)];
+  const scene::Instance& instance = scene.instances[body->instance];
   const auto material = static_cast<std::size_t>(scene::instance_material(scene, instance));
   const auto found = inspect_surface(scene, edits, 0, ray);
   ASSERT_TRUE(found);

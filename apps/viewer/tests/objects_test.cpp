@@ -51,7 +51,7 @@ TEST_F(Rooms, AClickFindsWhatEmbreeHits) {
     ++hits;
     EXPECT_NEAR(body->distance, glm::distance(surface->position, ray.origin), 1e-4f * (1 + body->distance));
     // The point is on that instance and on no other that is nearer.
-    const int at = scene_.instances[static_cast<std::size_t>(body->instance)].node;
+    const int at = scene_.instances[body->instance].node;
     const scene::Bounds box = node_bounds(scene_, world_, at);
     const vec3 p = surface->position;
     EXPECT_TRUE(glm::all(glm::greaterThan(p, box.min - 1e-3f)) &&

@@ -37,11 +37,9 @@ class PanelStage : public AppStage {
       probes::Probe& probe = set.probes.emplace_back();
       const auto i = static_cast<float>(set.probes.size());
       probe.name = sphl.name;
-      probe.position =
-          app()
-              .document.scene
-              ->nodes[static_cast<std::size_t>(app().document.scene->sphls[set.probes.size() - 1].node)]
-              .local.translation;
+      probe.position = app()
+                           .document.scene->nodes[app().document.scene->sphls[set.probes.size() - 1].node]
+                           .local.translation;
       sh::RadianceSh light(2);
       for (int k = 0; k < 9; ++k) light[k] = vec3(1, -0.5f, 0.25f * i) / static_cast<float>(k + 1);
       for (int from = 0; from + 1 < static_cast<int>(set.probes.size()); ++from)

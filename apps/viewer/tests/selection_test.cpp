@@ -31,7 +31,7 @@ TEST_F(Click, SelectsWhatIsUnderTheMouse) {
   const rays::RayQuery ray = pixel_ray(before, {0.5f, 0.5f}, 400 / 300.0f);
   const scene::Scene& scene = *app().document.scene;
   const auto body = pick_body(scene, scene::world_matrices(scene, 0), ray);
-  const scene::Instance& instance = scene.instances[static_cast<std::size_t>(body->instance)];
+  const scene::Instance& instance = scene.instances[body->instance];
   EXPECT_EQ(app().selection.index, instance.node);
   EXPECT_EQ(app().selection.material(), scene::instance_material(scene, instance));
   EXPECT_THAT(app().message, testing::StartsWith(name() + ", of "));
@@ -174,7 +174,7 @@ TEST_F(Outline, StandsAroundWhatIsSelected) {
     };
     std::vector<bool> covered(64 * 48);
     for (int y = 0; y < 48; ++y) {
-      for (int x = 0; x < 64; ++x) covered[static_cast<std::size_t>(64 * y + x)] = covers(x, y);
+      for (int x = 0; x < 64; ++x) covered[64 * y + x] = covers(x, y);
     }
     for (int y = 0; y < 48; ++y) {
       for (int x = 0; x < 64; ++x) {
@@ -184,7 +184,7 @@ TEST_F(Outline, StandsAroundWhatIsSelected) {
           for (int u = -2; u <= 2; ++u) {
             if (u * u + v * v > 5) continue;
             const int nx = std::clamp(x + u, 0, 63), ny = std::clamp(y + v, 0, 47);
-            beside = beside || covered[static_cast<std::size_t>(64 * ny + nx)];
+            beside = beside || covered[64 * ny + nx];
           }
         }
         const bool drawn = texels[4 * at + 3] > 0.1f;

@@ -177,7 +177,7 @@ void check_probes(const rays::RadianceSource& source, const probes::ProbeSet& se
       return light.emitted.empty() && sh::mean(light.reflected) == vec3(0);
     });
     for (const probes::Edge& edge : probe.edges) {
-      const probes::Probe& from = set.probes[static_cast<std::size_t>(edge.from)];
+      const probes::Probe& from = set.probes[edge.from];
       if (glm::distance(probe.position, from.position) > from.radius) continue;
       report.warnings.push_back(
           fmt::format("probe \"{}\" stands within the sphere of \"{}\", whose light it gets from all sides: "

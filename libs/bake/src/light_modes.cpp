@@ -51,9 +51,8 @@ void set_light_modes(const rays::TransportSource& source, probes::ProbeSet& set,
   const std::vector<int> baked = baked_indices(modes);
   if (baked.empty()) return;
   if (!set.surface)
-    throw Error(
-        fmt::format("light mode of \"{}\"", set.light_groups[static_cast<std::size_t>(baked[0])].name),
-        "baked light is kept at points of surfaces, and the set has none", "bake it with --records");
+    throw Error(fmt::format("light mode of \"{}\"", set.light_groups[baked[0]].name),
+                "baked light is kept at points of surfaces, and the set has none", "bake it with --records");
 
   std::vector<mat4> poses;
   for (int part = 0; part < source.part_count(); ++part)

@@ -75,7 +75,7 @@ probes::Trial trial(const rays::RadianceSource& source, const probes::ProbeSet& 
   for (int half = 0; half < 2; ++half) {
     const rays::CubeRequest request = half_trial(set.generator, set.probes[probe].position, probe, half);
     for (const probes::GroupLight& light : gen(source, request, probes::trial_degree, control)) {
-      sh::RadianceSh& sum = result.halves[static_cast<std::size_t>(half)].emplace_back(light.reflected);
+      sh::RadianceSh& sum = result.halves[half].emplace_back(light.reflected);
       if (!light.emitted.empty()) sum += light.emitted;
     }
   }

@@ -26,9 +26,9 @@ class MatrixAccumulator {
                   static_cast<std::size_t>(path.emitter) < emitter_count_,
               "radiance source", "a path is of a sphere or chunk that there is not");
       // Only one thread at a time works on a chunk, so it may make its matrices when the first path comes.
-      std::vector<sh::TransferMatrix>& matrices = chunks_[static_cast<std::size_t>(chunk)];
+      std::vector<sh::TransferMatrix>& matrices = chunks_[chunk];
       if (matrices.empty()) matrices.resize(emitter_count_);
-      sh::TransferMatrix& matrix = matrices[static_cast<std::size_t>(path.emitter)];
+      sh::TransferMatrix& matrix = matrices[path.emitter];
       if (matrix.values.empty()) matrix = sh::TransferMatrix(degree_, degree_);
       sh::add_path(matrix, path.throughput, path.direction, path.emission);
     };

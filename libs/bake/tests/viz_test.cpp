@@ -55,7 +55,7 @@ TEST(Viz, SymmetricGeometryHasSymmetricTransfer) {
   for (std::size_t i = 0; i < 3; ++i) {
     ASSERT_EQ(set.probes[i].edges.size(), 2u);
     for (const probes::Edge& edge : set.probes[i].edges) {
-      const probes::Probe& other = set.probes[static_cast<std::size_t>(edge.from)];
+      const probes::Probe& other = set.probes[edge.from];
       const auto back = std::find_if(other.edges.begin(), other.edges.end(),
                                      [&](const probes::Edge& e) { return e.from == static_cast<int>(i); });
       ASSERT_NE(back, other.edges.end());

@@ -71,7 +71,7 @@ void add_fitted_light(Sections& out, const probes::FittedSurfaces& fitted,
     sh::eval_basis(degree, fitted.surfaces.points[i].normal, basis);
     std::array<float, SSPHH_COOKED_FITTED_FLOATS> values{};
     for (const probes::ProbeWeight& weight : fitted.weights[i].used()) {
-      const std::vector<vec3>& e = light[static_cast<std::size_t>(weight.probe)].values;
+      const std::vector<vec3>& e = light[weight.probe].values;
       for (std::size_t k = 0; k < e.size(); ++k) {
         const vec3 part = weight.weight * (k < kept ? e[k] : basis[k] * e[k]);
         for (std::size_t c = 0; c < 3; ++c)
@@ -173,7 +173,7 @@ Cooked cook(const probes::ProbeSet& set, const CookScene* scene, const CookParam
   }
 
   Cooked cooked;
-  const auto bytes = [&](int section) { return out.bytes[static_cast<std::size_t>(section)].size(); };
+  const auto bytes = [&](int section) { return out.bytes[section].size(); };
   cooked.points = h.point_count, cooked.cells = h.cell_count, cooked.entries = h.entry_count;
   cooked.sight_bytes = bytes(SSPHH_COOKED_SIGHT), cooked.light_bytes = bytes(SSPHH_COOKED_LIGHT);
   cooked.list_bytes = bytes(SSPHH_COOKED_BRICKS) + bytes(SSPHH_COOKED_CELLS) + bytes(SSPHH_COOKED_ENTRIES) +

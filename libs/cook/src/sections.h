@@ -16,7 +16,7 @@ struct Sections {
 
   template <class T>
   void append(int section, std::span<const T> values) {
-    std::vector<std::byte>& out = bytes[static_cast<std::size_t>(section)];
+    std::vector<std::byte>& out = bytes[section];
     const std::size_t begin = out.size();
     out.resize(begin + values.size_bytes());
     if (!values.empty()) std::memcpy(out.data() + begin, values.data(), values.size_bytes());

@@ -65,8 +65,7 @@ TEST(SamplePairsProperty, EveryBlockOfEveryPairIsStratified) {
                   .cases(60)
                   .holds([](std::uint64_t seed, int bits, int block, int pair) {
                     return is_net(bits, [&](Word i) {
-                      return sample_pairs(
-                          seed, (static_cast<Word>(block) << bits) + i)[static_cast<std::size_t>(pair)];
+                      return sample_pairs(seed, (static_cast<Word>(block) << bits) + i)[pair];
                     });
                   }));
 }

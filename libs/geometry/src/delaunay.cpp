@@ -21,7 +21,7 @@ struct Cell {
 
   int infinite_corner() const {
     for (int k = 0; k < 4; ++k)
-      if (vertex[static_cast<std::size_t>(k)] == infinite) return k;
+      if (vertex[k] == infinite) return k;
     return -1;
   }
 };
@@ -37,13 +37,13 @@ class Builder {
     // Beyond face k stands a cell whose vertex k is infinite; two corners swapped keep it positive.
     for (int k = 0; k < 4; ++k) {
       Cell cell{corners, {none, none, none, none}};
-      cell.vertex[static_cast<std::size_t>(k)] = infinite;
+      cell.vertex[k] = infinite;
       const int i = face_of[k][0], j = face_of[k][1];
-      std::swap(cell.vertex[static_cast<std::size_t>(i)], cell.vertex[static_cast<std::size_t>(j)]);
+      std::swap(cell.vertex[i], cell.vertex[j]);
       cells_.push_back(cell);
     }
     for (std::int32_t c = 1; c <= 4; ++c) {
-      Cell& cell = cells_[static_cast<std::size_t>(c)];
+      Cell& cell = cells_[c];
       for (std::size_t k = 0; k < 4; ++k) {
         if (cell.vertex[k] == infinite) {
           cell.neighbor[k] = 0;
@@ -86,21 +86,20 @@ class Builder {
     for (std::size_t c = 0; c < cells_.size(); ++c) {
       if (index[c] == none) continue;
       Tetrahedron& tet = result.emplace_back(Tetrahedron{cells_[c].vertex, {}});
-      for (std::size_t k = 0; k < 4; ++k)
-        tet.neighbor[k] = index[static_cast<std::size_t>(cells_[c].neighbor[k])];
+      for (std::size_t k = 0; k < 4; ++k) tet.neighbor[k] = index[cells_[c].neighbor[k]];
     }
     return result;
   }
 
  private:
-  const LatticePoint& at(std::int32_t v) const { return points_[static_cast<std::size_t>(v)]; }
-  Cell& cell(std::int32_t c) { return cells_[static_cast<std::size_t>(c)]; }
-  const Cell& cell(std::int32_t c) const { return cells_[static_cast<std::size_t>(c)]; }
+  const LatticePoint& at(std::int32_t v) const { return points_[v]; }
+  Cell& cell(std::int32_t c) { return cells_[c]; }
+  const Cell& cell(std::int32_t c) const { return cells_[c]; }
 
   /// Of the cell's corners with p in place of corner k.
   int side(const Cell& c, int k, std::int32_t p) const {
     std::array<std::int32_t, 4> v = c.vertex;
-    v[static_cast<std::size_t>(k)] = p;
+    v[k] = p;
     return orientation(at(v[0]), at(v[1]), at(v[2]), at(v[3]));
   }
 
@@ -110,7 +109,7 @@ class Builder {
       const int outside = side(c, k, p);
       if (outside != 0) return outside > 0;
       // In the hull face's plane: inside its circle where inside the sphere of the tetrahedron behind it.
-      return conflicts(cell(c.neighbor[static_cast<std::size_t>(k)]), p);
+      return conflicts(cell(c.neighbor[k]), p);
     }
     const auto& v = c.vertex;
     return in_sphere_perturbed({at(v[0]), at(v[1]), at(v[2]), at(v[3]), at(p)}, {v[0], v[1], v[2], v[3], p}) >
@@ -126,14 +125,13 @@ class Builder {
   /// Complexes in d Dimensions, 1989).
   std::int32_t find_conflict(std::int32_t p) {
     std::int32_t now = newest_;
-    if (const int k = cell(now).infinite_corner(); k >= 0)
-      now = cell(now).neighbor[static_cast<std::size_t>(k)];
+    if (const int k = cell(now).infinite_corner(); k >= 0) now = cell(now).neighbor[k];
     for (std::size_t step = 0; step <= cells_.size(); ++step) {
       const Cell& c = cell(now);
       if (c.infinite_corner() >= 0) return now;
       std::int32_t next = none;
       for (int k = 0; k < 4 && next == none; ++k)
-        if (side(c, k, p) < 0) next = c.neighbor[static_cast<std::size_t>(k)];
+        if (side(c, k, p) < 0) next = c.neighbor[k];
       if (next == none) return now;
       now = next;
     }
@@ -192,10 +190,10 @@ class Builder {
     for (std::size_t c = 0; c < cells_.size(); ++c) {
       if (index[c] == none) continue;
       Cell moved = cells_[c];
-      for (std::int32_t& n : moved.neighbor) n = index[static_cast<std::size_t>(n)];
-      cells_[static_cast<std::size_t>(index[c])] = moved;
+      for (std::int32_t& n : moved.neighbor) n = index[n];
+      cells_[index[c]] = moved;
     }
-    newest_ = index[static_cast<std::size_t>(newest_)];
+    newest_ = index[newest_];
     cells_.resize(count);
     dead_ = 0;
   }
@@ -213,7 +211,7 @@ class Builder {
 std::vector<std::int32_t> spanning_points(std::span<const LatticePoint> points) {
   std::vector<std::int32_t> found;
   for (std::size_t i = 0; i < points.size() && found.size() < 4; ++i) {
-    const auto at = [&](std::size_t k) { return points[static_cast<std::size_t>(found[k])]; };
+    const auto at = [&](std::size_t k) { return points[found[k]]; };
     bool wider = true;
     if (found.size() == 1) wider = points[i] != at(0);
     if (found.size() == 2) {

@@ -101,10 +101,10 @@ void Tetrahedra::build_volume() {
 void Tetrahedra::drop_flat_cells() {
   std::vector<int> uses(points_.size(), 0);
   for (const Tetrahedron& cell : cells_)
-    for (const std::int32_t v : cell.vertex) ++uses[static_cast<std::size_t>(v)];
+    for (const std::int32_t v : cell.vertex) ++uses[v];
   const auto flat = [&](const Tetrahedron& cell) {
     std::array<glm::dvec3, 4> p;
-    for (std::size_t k = 0; k < 4; ++k) p[k] = points_[static_cast<std::size_t>(cell.vertex[k])];
+    for (std::size_t k = 0; k < 4; ++k) p[k] = points_[cell.vertex[k]];
     double longest = 0, area2 = 0;
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t j = 0; j < i; ++j) longest = std::max(longest, glm::length(p[i] - p[j]));
@@ -118,15 +118,14 @@ void Tetrahedra::drop_flat_cells() {
     for (std::size_t c = 0; c < cells_.size(); ++c) {
       Tetrahedron& cell = cells_[c];
       const bool outside = std::ranges::any_of(cell.neighbor, [](std::int32_t n) { return n < 0; });
-      const bool needed = std::ranges::any_of(
-          cell.vertex, [&](std::int32_t v) { return uses[static_cast<std::size_t>(v)] == 1; });
+      const bool needed = std::ranges::any_of(cell.vertex, [&](std::int32_t v) { return uses[v] == 1; });
       if (gone[c] || !outside || needed || !flat(cell)) continue;
       gone[c] = 1;
       changed = true;
-      for (const std::int32_t v : cell.vertex) --uses[static_cast<std::size_t>(v)];
+      for (const std::int32_t v : cell.vertex) --uses[v];
       for (const std::int32_t n : cell.neighbor) {
         if (n < 0) continue;
-        for (std::int32_t& back : cells_[static_cast<std::size_t>(n)].neighbor)
+        for (std::int32_t& back : cells_[n].neighbor)
           if (back == static_cast<std::int32_t>(c)) back = -1;
       }
     }
@@ -140,7 +139,7 @@ void Tetrahedra::drop_flat_cells() {
   }
   for (Tetrahedron& cell : kept)
     for (std::int32_t& n : cell.neighbor)
-      if (n >= 0) n = index[static_cast<std::size_t>(n)];
+      if (n >= 0) n = index[n];
   cells_ = std::move(kept);
 }
 
@@ -162,7 +161,7 @@ void Tetrahedra::build_plane() {
 void Tetrahedra::build_line() {
   std::vector<std::int32_t> order(points_.size());
   std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order, {}, [&](std::int32_t i) { return points_[static_cast<std::size_t>(i)].x; });
+  std::ranges::sort(order, {}, [&](std::int32_t i) { return points_[i].x; });
   std::vector<std::array<std::int32_t, 3>> segments;
   if (order.size() == 1) segments.push_back({order[0], order[0], order[0]});
   for (std::size_t i = 1; i < order.size(); ++i) segments.push_back({order[i - 1], order[i], order[i]});
@@ -174,7 +173,7 @@ void Tetrahedra::set_hull(const std::vector<std::array<std::int32_t, 3>>& triang
   std::vector<Corners> corners;
   for (const auto& triangle : triangles) {
     Corners& c = corners.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) c[k] = vec3(points_[static_cast<std::size_t>(triangle[k])]);
+    for (std::size_t k = 0; k < 3; ++k) c[k] = vec3(points_[triangle[k]]);
   }
   hull_ = TriangleTree(corners);
 }
@@ -207,9 +206,9 @@ void Tetrahedra::set_starts() {
 std::int32_t Tetrahedra::walk(const Place& p, std::int32_t from, std::array<double, 4>& weight) const {
   std::int32_t now = from;
   for (std::size_t step = 0; step <= cells_.size() && now >= 0; ++step) {
-    const Tetrahedron& cell = cells_[static_cast<std::size_t>(now)];
+    const Tetrahedron& cell = cells_[now];
     std::array<glm::dvec3, 4> v;
-    for (std::size_t k = 0; k < 4; ++k) v[k] = points_[static_cast<std::size_t>(cell.vertex[k])];
+    for (std::size_t k = 0; k < 4; ++k) v[k] = points_[cell.vertex[k]];
     weight = {volume6(p, v[1], v[2], v[3]), volume6(v[0], p, v[2], v[3]), volume6(v[0], v[1], p, v[3]),
               volume6(v[0], v[1], v[2], p)};
     const double sum = weight[0] + weight[1] + weight[2] + weight[3];
@@ -218,18 +217,18 @@ std::int32_t Tetrahedra::walk(const Place& p, std::int32_t from, std::array<doub
       for (double& w : weight) w = std::max(w, 0.0) / sum;
       return now;
     }
-    now = cell.neighbor[static_cast<std::size_t>(least - weight.begin())];
+    now = cell.neighbor[least - weight.begin()];
   }
   return -1;
 }
 
 CornerWeights Tetrahedra::on_hull(const Place& p) const {
   const TriangleTree::Found found = hull_.nearest(vec3(p));
-  const auto& corners = hull_corners_[static_cast<std::size_t>(found.triangle)];
+  const auto& corners = hull_corners_[found.triangle];
   CornerWeights out;
   for (int k = 0; k < 3; ++k) {
     const float w = found.place.weight[k];
-    if (w > 0) out.add(index_[static_cast<std::size_t>(corners[static_cast<std::size_t>(k)])], w);
+    if (w > 0) out.add(index_[corners[k]], w);
   }
   return out;
 }
@@ -246,9 +245,7 @@ CornerWeights Tetrahedra::at(const vec3& p) const {
   if (cell < 0) return on_hull(place);
   CornerWeights out;
   for (std::size_t k = 0; k < 4; ++k) {
-    if (weight[k] > 0)
-      out.add(index_[static_cast<std::size_t>(cells_[static_cast<std::size_t>(cell)].vertex[k])],
-              static_cast<float>(weight[k]));
+    if (weight[k] > 0) out.add(index_[cells_[cell].vertex[k]], static_cast<float>(weight[k]));
   }
   return out;
 }

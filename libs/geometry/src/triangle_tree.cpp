@@ -11,7 +11,7 @@ constexpr std::int32_t leaf_size = 4;
 /// Nearest point of the edge that begins at corner i.
 OnTriangle nearest_on_edge(const Corners& triangle, int i, const vec3& p) {
   const int j = (i + 1) % 3;
-  const vec3 a = triangle[static_cast<std::size_t>(i)], b = triangle[static_cast<std::size_t>(j)];
+  const vec3 a = triangle[i], b = triangle[j];
   const vec3 edge = b - a;
   const float length2 = glm::dot(edge, edge);
   const float t = length2 > 0 ? std::clamp(glm::dot(p - a, edge) / length2, 0.0f, 1.0f) : 0;
@@ -56,11 +56,11 @@ void TriangleTree::split(std::size_t node, std::int32_t first, std::int32_t coun
   const auto begin = order_.begin() + first, end = begin + count;
   scene::Bounds box, centers;
   const auto center = [&](std::int32_t i) {
-    const Corners& c = corners_[static_cast<std::size_t>(i)];
+    const Corners& c = corners_[i];
     return c[0] + c[1] + c[2];
   };
   for (auto i = begin; i != end; ++i) {
-    for (const vec3& corner : corners_[static_cast<std::size_t>(*i)]) box.add(corner);
+    for (const vec3& corner : corners_[*i]) box.add(corner);
     centers.add(center(*i));
   }
   nodes_[node].box = box;

@@ -31,7 +31,7 @@ std::vector<LatticePoint> grid(int n, int step) {
 }
 
 const LatticePoint& corner(std::span<const LatticePoint> points, const Tetrahedron& t, std::size_t k) {
-  return points[static_cast<std::size_t>(t.vertex[k])];
+  return points[t.vertex[k]];
 }
 
 double volume6(std::span<const LatticePoint> points, const Tetrahedron& t) {
@@ -59,7 +59,7 @@ void expect_delaunay(std::span<const LatticePoint> points, double hull6) {
                 0);
     for (std::size_t k = 0; k < 4; ++k) {
       if (t.neighbor[k] < 0) continue;
-      const Tetrahedron& other = cells[static_cast<std::size_t>(t.neighbor[k])];
+      const Tetrahedron& other = cells[t.neighbor[k]];
       const auto back = std::ranges::find(other.neighbor, static_cast<std::int32_t>(c));
       ASSERT_NE(back, other.neighbor.end());
       for (std::size_t j = 0; j < 4; ++j) {

@@ -26,8 +26,7 @@ template <class Field>
 float blend(const Tetrahedra& tetrahedra, std::span<const vec3> points, const vec3& at, const Field& field) {
   float sum = 0;
   const CornerWeights weights = tetrahedra.at(at);
-  for (const CornerWeight& w : weights.used())
-    sum += w.weight * field(points[static_cast<std::size_t>(w.point)]);
+  for (const CornerWeight& w : weights.used()) sum += w.weight * field(points[w.point]);
   return sum;
 }
 
@@ -115,8 +114,7 @@ TEST(Tetrahedra, TiltedGridInterpolatesBetweenNeighbours) {
     at[i % 3] = i % 2 == 0 ? -0.5f : 5.5f;  // before a side
     const vec3 world = turn * at;
     const CornerWeights weights = tetrahedra.at(world);
-    for (const CornerWeight& w : weights.used())
-      EXPECT_LT(glm::length(points[static_cast<std::size_t>(w.point)] - world), 2.3f);
+    for (const CornerWeight& w : weights.used()) EXPECT_LT(glm::length(points[w.point] - world), 2.3f);
   }
 }
 
@@ -182,8 +180,7 @@ TEST(Tetrahedra, CollinearAndCoplanarAndTheSame) {
     const vec3 p = vec3(-1, 0, 4) + 5 * random.uniform() * u + 4 * random.uniform() * v;
     EXPECT_NEAR(blend(on_plane, plane, p + b * glm::cross(u, v), linear), linear(p), 1e-4f);
     const CornerWeights near = on_plane.at(p);
-    for (const CornerWeight& w : near.used())
-      EXPECT_LT(glm::length(plane[static_cast<std::size_t>(w.point)] - p), 1.42f);
+    for (const CornerWeight& w : near.used()) EXPECT_LT(glm::length(plane[w.point] - p), 1.42f);
   }
   ASSERT_EQ(on_point.at({9, 9, 9}).count, 1);
   EXPECT_EQ(on_point.at({9, 9, 9}).entries[0].weight, 1);

@@ -81,7 +81,7 @@ TEST(TriangleTree, NearestIsThatOfAllTriangles) {
     for (const Corners& t : triangles) least = std::min(least, nearest_on_triangle(t, p).distance2);
     const TriangleTree::Found found = tree.nearest(p);
     EXPECT_EQ(found.place.distance2, least);
-    const Corners& t = triangles[static_cast<std::size_t>(found.triangle)];
+    const Corners& t = triangles[found.triangle];
     const vec3& w = found.place.weight;
     EXPECT_NEAR(glm::length(p - (w.x * t[0] + w.y * t[1] + w.z * t[2])), std::sqrt(least), 1e-5f);
     EXPECT_EQ(tree.nearest(p, 0.5f * std::sqrt(least), [](std::int32_t) { return true; }).triangle, -1);

@@ -41,7 +41,7 @@ void Timer::begin() {
       gpu_ms_ = static_cast<double>(nanoseconds) * 1e-6;
       --pending_;
     }
-    glBeginQuery(GL_TIME_ELAPSED, queries_[static_cast<std::size_t>(next_)].get());
+    glBeginQuery(GL_TIME_ELAPSED, queries_[next_].get());
   }
   start_ = now_ms();
 }

@@ -87,10 +87,10 @@ TEST_F(GlTexture, WhatIsUploadedIsReadInEveryFormat) {
     Texture image(format, 2, 1);
     const float scale = format == Format::depth32f ? 1 / 16.0f : 1;
     std::vector<float> texels;
-    for (int i = 0; i < 2 * channels; ++i) texels.push_back(scale * numbers[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < 2 * channels; ++i) texels.push_back(scale * numbers[i]);
     image.upload(bytes(texels));
     vec4 expected(0, 0, 0, 1);
-    for (int i = 0; i < channels; ++i) expected[i] = texels[static_cast<std::size_t>(channels + i)];
+    for (int i = 0; i < channels; ++i) expected[i] = texels[channels + i];
     EXPECT_EQ(seen(image, ""), expected) << static_cast<int>(format);
   }
   const std::vector<unsigned> whole = {1, 2, 3, 4, 5, 6, 7, 8};

@@ -88,8 +88,7 @@ CubeMap gather_cube(const SphereField& field, int size, const Control& control) 
       const float r2 = glm::dot(d, d);
       return WeightedDirection{d, 1 / (r2 * std::sqrt(r2))};
     };
-    cube.faces[static_cast<std::size_t>(face)] =
-        gather(size, size, 2 / static_cast<float>(size), field, place, control);
+    cube.faces[face] = gather(size, size, 2 / static_cast<float>(size), field, place, control);
   }
   return cube;
 }

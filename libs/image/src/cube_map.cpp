@@ -18,7 +18,7 @@ vec3 neighbour_texel(const CubeMap& cube, int face, int x, int y) {
   const auto texel = [&](float s) {
     return std::clamp(static_cast<int>(s * static_cast<float>(cube.size)), 0, cube.size - 1);
   };
-  return cube.faces[static_cast<std::size_t>(p.face)].rgb(texel(p.s), texel(p.t));
+  return cube.faces[p.face].rgb(texel(p.s), texel(p.t));
 }
 
 }  // namespace
@@ -28,9 +28,9 @@ vec3 cube_texel(const CubeMap& cube, int face, int x, int y) {
   const int last = cube.size - 1;
   const int cx = std::clamp(x, 0, last), cy = std::clamp(y, 0, last);
   const bool out_x = cx != x, out_y = cy != y;
-  if (!out_x && !out_y) return cube.faces[static_cast<std::size_t>(face)].rgb(x, y);
+  if (!out_x && !out_y) return cube.faces[face].rgb(x, y);
   if (out_x != out_y) return neighbour_texel(cube, face, x, y);
-  return (cube.faces[static_cast<std::size_t>(face)].rgb(cx, cy) + neighbour_texel(cube, face, x, cy) +
+  return (cube.faces[face].rgb(cx, cy) + neighbour_texel(cube, face, x, cy) +
           neighbour_texel(cube, face, cx, y)) /
          3.0f;
 }

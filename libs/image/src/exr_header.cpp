@@ -108,7 +108,7 @@ void check_chunks(Parser& parser, ExrHeader& header) {
   if (header.compression >= static_cast<int>(lines_per_chunk.size())) parser.fail("unknown compression");
   std::int64_t pixel_bytes = 0;
   for (const ExrChannel& channel : header.channels) pixel_bytes += channel.bytes;
-  const std::int64_t lines = lines_per_chunk[static_cast<std::size_t>(header.compression)];
+  const std::int64_t lines = lines_per_chunk[header.compression];
   std::int64_t chunk_pixels = header.data.width() * lines;
   header.chunks = (header.data.height() + lines - 1) / lines;
   if (header.tiled) {

@@ -208,8 +208,7 @@ Image decode_hdr(const Source& source) {
     const int outer = place(header.outer, i);
     for (int j = 0; j < header.inner.length; ++j) {
       const int inner = place(header.inner, j);
-      image.set_rgb(rows ? inner : outer, rows ? outer : inner,
-                    header.scale * decode_rgbe(line[static_cast<std::size_t>(j)]));
+      image.set_rgb(rows ? inner : outer, rows ? outer : inner, header.scale * decode_rgbe(line[j]));
     }
   }
   return image;

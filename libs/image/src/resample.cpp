@@ -48,7 +48,7 @@ Taps taps_of(int i, int from, int to, Filter filter) {
                               ? std::max(0.0, std::min(high, x + 1.0) - std::max(low, static_cast<double>(x)))
                               : kernel(filter, (x + 0.5 - centre) / scale);
     const int inside = std::clamp(x - taps.first, 0, static_cast<int>(weights.size()) - 1);
-    weights[static_cast<std::size_t>(inside)] += weight;
+    weights[inside] += weight;
     sum += weight;
   }
   for (const double weight : weights) taps.weights.push_back(static_cast<float>(weight / sum));
@@ -68,7 +68,7 @@ Image filter_axis(const Image& in, int width, int height, const std::vector<Taps
   parallel_for(static_cast<std::size_t>(height), 8, [&](std::size_t begin, std::size_t end) {
     for (auto y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
       for (int x = 0; x < width; ++x) {
-        const Taps& tap = taps[static_cast<std::size_t>(columns ? y : x)];
+        const Taps& tap = taps[columns ? y : x];
         float* pixel = out.at(x, y);
         for (std::size_t k = 0; k < tap.weights.size(); ++k) {
           const int place = tap.first + static_cast<int>(k);

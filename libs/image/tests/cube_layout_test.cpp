@@ -61,8 +61,7 @@ CubeMap smooth_cube(int size) {
   for (int face = 0; face < 6; ++face) {
     for (int y = 0; y < size; ++y) {
       for (int x = 0; x < size; ++x) {
-        cube.faces[static_cast<std::size_t>(face)].set_rgb(x, y,
-                                                           smooth_field(texel_direction(face, x, y, size)));
+        cube.faces[face].set_rgb(x, y, smooth_field(texel_direction(face, x, y, size)));
       }
     }
   }
@@ -105,7 +104,7 @@ TEST(CubeLayout, CellsThatTouchInACrossTouchOnTheCube) {
   for (int face = 0; face < 6; ++face) {
     for (int y = 0; y < size; ++y) {
       for (int x = 0; x < size; ++x) {
-        directions.faces[static_cast<std::size_t>(face)].set_rgb(x, y, texel_direction(face, x, y, size));
+        directions.faces[face].set_rgb(x, y, texel_direction(face, x, y, size));
       }
     }
   }
@@ -222,8 +221,7 @@ CubeMap direction_cube(int size) {
   CubeMap cube(size);
   for (int f = 0; f < 6; ++f)
     for (int y = 0; y < size; ++y)
-      for (int x = 0; x < size; ++x)
-        cube.faces[static_cast<std::size_t>(f)].set_rgb(x, y, texel_direction(f, x, y, size));
+      for (int x = 0; x < size; ++x) cube.faces[f].set_rgb(x, y, texel_direction(f, x, y, size));
   return cube;
 }
 

@@ -97,7 +97,7 @@ TEST(ExrHeaders, BlocksHaveTheLinesOfTheirCompression) {
   constexpr std::array<int, 10> lines{1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
   for (int c = 0; c < 10; ++c) {
     const std::string compression = attribute("compression", std::string(1, static_cast<char>(c)));
-    const int height = lines[static_cast<std::size_t>(c)];
+    const int height = lines[c];
     for (const int more : {0, 1}) {
       const Look look = look_at(part(compression, window(0, 0, 9, height + more - 1)));
       ASSERT_EQ(look.headers.size(), 1u) << look.said;

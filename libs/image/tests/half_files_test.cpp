@@ -75,7 +75,7 @@ TEST(Ktx2, IsATextureOfHalves) {
   ByteReader texels(std::span<const std::byte>(file).subspan(at), "texels");
   for (int i = 0; i < 6; ++i) {
     for (int c = 0; c < 3; ++c) {
-      const float truth = picture.pixels[static_cast<std::size_t>(3 * i + c)];
+      const float truth = picture.pixels[3 * i + c];
       EXPECT_NEAR(value_of(texels.value<std::uint16_t>("texel")), truth, truth / 2048);
     }
     EXPECT_EQ(value_of(texels.value<std::uint16_t>("alpha")), 1);

@@ -113,8 +113,7 @@ TEST(Resize, SpreadsAPointByThePublishedKernel) {
         double sum = 0;
         const double centre = (x + 0.5) * ratio;
         for (int i = -100; i < 124; ++i) sum += published_kernel(filter, (i + 0.5 - centre) / scale);
-        EXPECT_NEAR(out.pixels[static_cast<std::size_t>(x)],
-                    published_kernel(filter, (12.5 - centre) / scale) / sum, 1e-6)
+        EXPECT_NEAR(out.pixels[x], published_kernel(filter, (12.5 - centre) / scale) / sum, 1e-6)
             << x << " of " << width;
       }
     }

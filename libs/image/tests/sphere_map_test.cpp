@@ -173,8 +173,7 @@ TEST(SampleCube, GivesTexelsAtTheirCentres) {
   for (int face = 0; face < 6; ++face) {
     for (int y = 0; y < 5; ++y) {
       for (int x = 0; x < 5; ++x) {
-        expect_near(sample_cube(cube, texel_direction(face, x, y, 5)),
-                    cube.faces[static_cast<std::size_t>(face)].rgb(x, y));
+        expect_near(sample_cube(cube, texel_direction(face, x, y, 5)), cube.faces[face].rgb(x, y));
       }
     }
   }

@@ -62,16 +62,14 @@ void grow(const WorldMesh& mesh, const Neighbours& neighbours, std::uint32_t ins
       chart_of[triangle] = id;
       chart.triangles.push_back({triangle, at, 0});
       for (const std::int32_t next : neighbours[triangle]) {
-        if (next >= 0 && chart_of[static_cast<std::size_t>(next)] == nowhere)
-          waiting.push_back(static_cast<std::uint32_t>(next));
+        if (next >= 0 && chart_of[next] == nowhere) waiting.push_back(static_cast<std::uint32_t>(next));
       }
     }
     if (chart.triangles.empty()) continue;
     for (FlatTriangle& t : chart.triangles) {
       for (std::size_t k = 0; k < 3; ++k) {
         const std::int32_t next = neighbours[t.triangle][k];
-        if (next < 0 || chart_of[static_cast<std::size_t>(next)] != id)
-          t.open = static_cast<std::uint8_t>(t.open | 1 << k);
+        if (next < 0 || chart_of[next] != id) t.open = static_cast<std::uint8_t>(t.open | 1 << k);
       }
     }
     lay_along_axes(chart);
@@ -96,8 +94,7 @@ void own_charts(const WorldMesh& mesh, std::uint32_t instance, const ChartParams
       [&](std::uint32_t triangle, FlatCorners& at) {
         const uvec3& t = mesh.mesh.triangles[triangle];
         if (!(glm::dot(unit_front(t), frame.z) >= least)) return false;
-        for (int k = 0; k < 3; ++k)
-          at[static_cast<std::size_t>(k)] = vec2(frame.to_local(mesh.positions[t[k]] - origin));
+        for (int k = 0; k < 3; ++k) at[k] = vec2(frame.to_local(mesh.positions[t[k]] - origin));
         return true;
       });
 }
@@ -126,11 +123,10 @@ void uv_charts(const WorldMesh& mesh, std::uint32_t instance, std::vector<Chart>
 
 /// Why an instance gets no lightmap; empty: it gets one.
 std::string reason_against(const scene::Scene& scene, const scene::Instance& instance, bool moving) {
-  if (!moving && instance.node >= 0 && scene.nodes[static_cast<std::size_t>(instance.node)].movable)
-    return "it moves";
+  if (!moving && instance.node >= 0 && scene.nodes[instance.node].movable) return "it moves";
   const int index = scene::instance_material(scene, instance);
   if (index < 0) return "";
-  const scene::Material& material = scene.materials[static_cast<std::size_t>(index)];
+  const scene::Material& material = scene.materials[index];
   if (material.unlit) return "it is unlit";
   if (material.is_glass() && material.transmission >= 1 && material.transmission_texture.texture < 0)
     return "it is clear glass";
@@ -178,7 +174,7 @@ Charts make_charts(const scene::Scene& scene, float time, const ChartParams& par
     stage.advance(1);
     const scene::Instance& instance = scene.instances[i];
     if (instance.mesh < 0) continue;
-    const scene::Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+    const scene::Mesh& mesh = scene.meshes[instance.mesh];
     if (mesh.triangles.empty()) continue;
     if (const std::string reason = reason_against(scene, instance, params.moving); !reason.empty()) {
       ++left_out[reason];

@@ -34,7 +34,7 @@ class Builder {
       const uvec3& t = from_.triangles[flat.triangle];
       uvec3 now(0);
       for (int k = 0; k < 3; ++k) {
-        const vec2 uv = place.texel(flat.at[static_cast<std::size_t>(k)]) / size;
+        const vec2 uv = place.texel(flat.at[k]) / size;
         const auto [at, fresh] =
             known.try_emplace({t[k], uv.x, uv.y}, static_cast<std::uint32_t>(to_.positions.size()));
         if (fresh) copy_vertex(from_, t[k], uv, to_);
@@ -55,7 +55,7 @@ class Builder {
 bool takes_second(const scene::Scene& scene, const scene::Instance& instance) {
   const int index = scene::instance_material(scene, instance);
   if (index < 0) return false;
-  return uv_sets_used(scene.materials[static_cast<std::size_t>(index)])[1];
+  return uv_sets_used(scene.materials[index])[1];
 }
 
 scene::Material with_first_set(scene::Material material) {
@@ -78,14 +78,13 @@ scene::Scene with_lightmap(scene::Scene scene, std::span<const Chart> charts, co
   for (std::size_t begin = 0; begin < charts.size();) {
     scene::Instance& instance = scene.instances[charts[begin].instance];
     lit[charts[begin].instance] = 1;
-    Mesh from = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+    Mesh from = scene.meshes[instance.mesh];
     if (takes_second(scene, instance)) {
       from.uvs[0] = from.uvs[1];
       const int material = scene::instance_material(scene, instance);
       const auto [at, fresh] =
           moved_materials.try_emplace(material, static_cast<int>(scene.materials.size()));
-      if (fresh)
-        scene.materials.push_back(with_first_set(scene.materials[static_cast<std::size_t>(material)]));
+      if (fresh) scene.materials.push_back(with_first_set(scene.materials[material]));
       instance.material = at->second;
     }
     Builder builder(from, layout);
@@ -101,8 +100,8 @@ scene::Scene with_lightmap(scene::Scene scene, std::span<const Chart> charts, co
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const scene::Instance& instance = scene.instances[i];
     if (lit[i] || instance.mesh < 0) continue;
-    used[static_cast<std::size_t>(instance.mesh)] = 1;
-    if (takes_second(scene, instance)) keeps[static_cast<std::size_t>(instance.mesh)] = 1;
+    used[instance.mesh] = 1;
+    if (takes_second(scene, instance)) keeps[instance.mesh] = 1;
   }
   std::vector<int> renamed(scene.meshes.size(), -1);
   std::vector<Mesh> meshes;
@@ -114,7 +113,7 @@ scene::Scene with_lightmap(scene::Scene scene, std::span<const Chart> charts, co
   }
   scene.meshes = std::move(meshes);
   for (scene::Instance& instance : scene.instances)
-    if (instance.mesh >= 0) instance.mesh = renamed[static_cast<std::size_t>(instance.mesh)];
+    if (instance.mesh >= 0) instance.mesh = renamed[instance.mesh];
   return scene;
 }
 

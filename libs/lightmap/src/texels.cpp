@@ -29,7 +29,7 @@ Nearest nearest(const std::array<vec2, 3>& t, const vec2& p) {
   if (inside.x >= 0 && inside.y >= 0 && inside.z >= 0) return {inside / (inside.x + inside.y + inside.z), 0};
   Nearest best{{}, std::numeric_limits<float>::infinity()};
   for (int k = 0; k < 3; ++k) {
-    const vec2 a = t[static_cast<std::size_t>(k)], edge = t[static_cast<std::size_t>((k + 1) % 3)] - a;
+    const vec2 a = t[k], edge = t[(k + 1) % 3] - a;
     const float length2 = glm::dot(edge, edge);
     const float s = length2 > 0 ? glm::clamp(glm::dot(p - a, edge) / length2, 0.0f, 1.0f) : 0;
     const vec2 d = a + s * edge - p;
@@ -47,8 +47,7 @@ vec3 within(const Face& face, vec3 share) {
   vec3 least(0);
   for (int k = 0; k < 3; ++k) {
     if (!(face.open >> k & 1)) continue;
-    const float length =
-        glm::length(face.at[static_cast<std::size_t>((k + 1) % 3)] - face.at[static_cast<std::size_t>(k)]);
+    const float length = glm::length(face.at[(k + 1) % 3] - face.at[k]);
     least[(k + 2) % 3] = std::min(0.3f, inset * length / twice_area);
   }
   const vec3 lifted = glm::max(share, least), spare = lifted - least;

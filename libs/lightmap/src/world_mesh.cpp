@@ -5,9 +5,8 @@
 namespace ssphh::lightmap {
 
 WorldMesh::WorldMesh(const scene::Scene& scene, const scene::Instance& instance, std::span<const mat4> world)
-    : mesh(scene.meshes[static_cast<std::size_t>(instance.mesh)]),
-      moves(instance.node >= 0 && scene.nodes[static_cast<std::size_t>(instance.node)].movable) {
-  const mat4 matrix = instance.node < 0 ? mat4(1) : world[static_cast<std::size_t>(instance.node)];
+    : mesh(scene.meshes[instance.mesh]), moves(instance.node >= 0 && scene.nodes[instance.node].movable) {
+  const mat4 matrix = instance.node < 0 ? mat4(1) : world[instance.node];
   positions.reserve(mesh.positions.size());
   for (const vec3& p : mesh.positions) positions.emplace_back(matrix * vec4(p, 1));
   const float determinant = glm::determinant(mat3(matrix));

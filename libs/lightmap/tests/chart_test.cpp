@@ -33,7 +33,7 @@ scene::Mesh square(const std::vector<vec2>& uvs) {
 
 bool covers(const FlatTriangle& t, const vec2& p) {
   const auto side = [&](int k) {
-    const vec2 a = t.at[static_cast<std::size_t>(k)], b = t.at[static_cast<std::size_t>((k + 1) % 3)];
+    const vec2 a = t.at[k], b = t.at[(k + 1) % 3];
     return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
   };
   const float s[3] = {side(0), side(1), side(2)};
@@ -51,7 +51,7 @@ void expect_sound(const scene::Mesh& mesh, const std::vector<Chart>& charts, flo
       EXPECT_TRUE(seen.insert(t.triangle).second);
       const uvec3& corners = mesh.triangles[t.triangle];
       for (int k = 0; k < 3; ++k) {
-        const vec2 a = t.at[static_cast<std::size_t>(k)], b = t.at[static_cast<std::size_t>((k + 1) % 3)];
+        const vec2 a = t.at[k], b = t.at[(k + 1) % 3];
         const float world = glm::length(mesh.positions[corners[k]] - mesh.positions[corners[(k + 1) % 3]]);
         EXPECT_LE(glm::length(b - a), world * 1.0001f + 1e-6f);
         EXPECT_GE(glm::length(b - a), shortest * world - 1e-6f);
@@ -181,7 +181,7 @@ TEST(Charts, CoordinatesOfTheSceneThatAreNotFitAreRefusedOrReplaced) {
 TEST(Charts, WhatMovesShinesOrIsClearHasNone) {
   scene::Scene scene = scene_of(std::vector<scene::Mesh>(5, one_triangle()));
   scene.materials.resize(5);
-  for (int i = 0; i < 5; ++i) scene.instances[static_cast<std::size_t>(i)].material = i;
+  for (int i = 0; i < 5; ++i) scene.instances[i].material = i;
   scene.nodes[0].movable = true;
   scene.materials[1].unlit = true;
   scene.materials[2].transmission = 1;

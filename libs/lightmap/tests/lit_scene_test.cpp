@@ -27,11 +27,10 @@ TEST(LitScene, EachInstanceHasAMeshOfItsOwnWithEveryTriangleAtItsPlace) {
   ASSERT_EQ(lit.meshes.size(), 3u);
   EXPECT_NE(lit.instances[0].mesh, lit.instances[1].mesh);
   EXPECT_EQ(lit.instances[1].light_group, "group");
-  EXPECT_TRUE(lit.meshes[static_cast<std::size_t>(lit.instances[2].mesh)].uvs[1].empty());
+  EXPECT_TRUE(lit.meshes[lit.instances[2].mesh].uvs[1].empty());
 
   for (int i = 0; i < 2; ++i) {
-    const scene::Mesh& mesh =
-        lit.meshes[static_cast<std::size_t>(lit.instances[static_cast<std::size_t>(i)].mesh)];
+    const scene::Mesh& mesh = lit.meshes[lit.instances[i].mesh];
     ASSERT_EQ(mesh.triangles.size(), scene.meshes[0].triangles.size());
     ASSERT_EQ(mesh.uvs[1].size(), mesh.positions.size());
     ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
@@ -56,9 +55,9 @@ TEST(LitScene, TexturesThatTookTheSecondCoordinatesTakeTheFirst) {
   const Unwrapped u(scene, {.size = 64});
   const scene::Scene lit = with_lightmap(scene, u.charts.charts, u.layout);
   const scene::Instance& instance = lit.instances[0];
-  EXPECT_EQ(lit.materials[static_cast<std::size_t>(instance.material)].base_color_texture.uv_set, 0);
+  EXPECT_EQ(lit.materials[instance.material].base_color_texture.uv_set, 0);
   EXPECT_EQ(scene.materials[0].base_color_texture.uv_set, 1);
-  const scene::Mesh& made = lit.meshes[static_cast<std::size_t>(instance.mesh)];
+  const scene::Mesh& made = lit.meshes[instance.mesh];
   for (std::size_t v = 0; v < made.positions.size(); ++v) {
     EXPECT_EQ(made.uvs[0][v], vec2(made.positions[v]) * vec2(2, 3));
     EXPECT_TRUE(glm::all(glm::lessThan(made.uvs[1][v], vec2(1))));

@@ -40,7 +40,7 @@ class World {
     }
     for (int i = 0; i < workers; ++i) workers_.push_back(new_worker());
     for (int i = 0; i < jobs; ++i) {
-      Client& client = clients_[static_cast<std::size_t>(i % clients)];
+      Client& client = clients_[i % clients];
       RequestOptions options;
       options.persistent = faults.store && i % 2 == 0;
       const std::string body = "job " + std::to_string(i);

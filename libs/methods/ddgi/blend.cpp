@@ -50,7 +50,7 @@ void blend_rays(DdgiField& field, std::span<const ProbeRay> rays, std::span<cons
     for (std::size_t p = begin; p < end; ++p) {
       const std::span<const ProbeRay> own = rays.subspan(p * directions.size(), directions.size());
       DdgiBlend of_probe = params;
-      std::uint8_t& is_fresh = fresh[static_cast<std::size_t>(probes[p])];
+      std::uint8_t& is_fresh = fresh[probes[p]];
       if (is_fresh) of_probe.hysteresis = 0;
       is_fresh = 0;
 

@@ -46,8 +46,8 @@ vec3 DdgiField::irradiance(const vec3& position_in, const vec3& normal, const ve
   for (int corner = 0; corner < 8; ++corner) {
     const glm::ivec3 step(corner & 1, corner / 2 & 1, corner / 4);
     const int probe = grid.index(glm::min(glm::ivec3(low) + step, grid.count - 1));
-    if (!active[static_cast<std::size_t>(probe)]) continue;
-    const vec3& place = position[static_cast<std::size_t>(probe)];
+    if (!active[probe]) continue;
+    const vec3& place = position[probe];
 
     // Probes behind the surface still count a little, for where it is curved or all others are hidden.
     const float cosine = glm::dot(glm::normalize(place - position_in + 1e-6f * normal), normal);
@@ -64,8 +64,7 @@ vec3 DdgiField::irradiance(const vec3& position_in, const vec3& normal, const ve
 
     vec3 e(0);
     for (std::size_t k = 0; k < 4; ++k) {
-      e += texels.weight[k] *
-           irradiance_texel[static_cast<std::size_t>(probe * irradiance_texels + texels.texel[k])];
+      e += texels.weight[k] * irradiance_texel[probe * irradiance_texels + texels.texel[k]];
     }
     sum += weight * e;
     weights += weight;

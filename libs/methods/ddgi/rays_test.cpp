@@ -141,7 +141,7 @@ TEST(DdgiRays, AddTheFieldsOwnLightSeenFromTheProbe) {
   traced.light.at = [](int, const rays::SurfacePoint&) { return vec3(0); };
   // Light by the way that a surface faces: of the wall ahead, which faces −z.
   for (int t = 0; t < DdgiField::irradiance_texels; ++t)
-    traced.field.irradiance_of(1)[static_cast<std::size_t>(t)] =
+    traced.field.irradiance_of(1)[t] =
         octahedral_texel(t, DdgiField::irradiance_size).z < 0 ? vec3(2, 4, 6) : vec3(0);
   const std::vector<ProbeRay> rays = traced.trace();
   const vec3 expected = vec3(0.5f, 0.25f, 1) / pi * vec3(2, 4, 6);
@@ -160,7 +160,7 @@ scene::Scene with_shuttle() {
   scene.meshes = {scene::make_quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}),
                   scene::make_quad({-0.5f, 0, 0.5f}, {1, 0, 0}, {0, 0, -1})};
   for (int i = 0; i < 2; ++i) {
-    scene.meshes[static_cast<std::size_t>(i)].material = 0;
+    scene.meshes[i].material = 0;
     scene.nodes.emplace_back();
     scene.instances.push_back({i, i, -1, ""});
   }

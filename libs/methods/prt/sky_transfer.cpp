@@ -54,15 +54,14 @@ PlaceTransfer find_place_transfer(std::span<const vec3> places, const TransferMe
         std::vector<vec3> leaving(n);
         std::array<float, sh::max_coefficient_count> basis;
         for (std::size_t p = begin; p < end; ++p) {
-          for (int r = 0; r < rays; ++r)
-            queries[static_cast<std::size_t>(r)] = {places[p], spherical_fibonacci(r, rays)};
+          for (int r = 0; r < rays; ++r) queries[r] = {places[p], spherical_fibonacci(r, rays)};
           source.intersect(0, queries, hits);
           for (std::size_t r = 0; r < count; ++r) {
             if (hits[r].escaped()) continue;
             const MeshPlace at =
                 index.find({places[p] + hits[r].distance * queries[r].direction, hits[r].normal});
             if (at.triangle < 0) continue;
-            const uvec3& t = mesh.triangles[static_cast<std::size_t>(at.triangle)];
+            const uvec3& t = mesh.triangles[at.triangle];
             std::ranges::fill(leaving, vec3(0));
             for (int c = 0; c < 3; ++c) {
               const vec3 factor = solid_angle / pi * at.weight[c] * hits[r].through * hits[r].albedo;

@@ -19,7 +19,7 @@ void add_cosine_lobe(int degree, const vec3& normal, float* out) {
   sh::eval_basis(degree, normal, basis);
   for (int l = 0; l <= degree; ++l) {
     const auto factor = static_cast<float>(sh::cosine_band_factor(l));
-    for (int k = l * l; k < (l + 1) * (l + 1); ++k) out[k] += factor * basis[static_cast<std::size_t>(k)];
+    for (int k = l * l; k < (l + 1) * (l + 1); ++k) out[k] += factor * basis[k];
   }
 }
 
@@ -95,7 +95,7 @@ class Finder {
     const float share = 1 / static_cast<float>(hits.size());
     for (const VertexHit& hit : hits) {
       if (!hidden(hit) || hit.triangle < 0) continue;
-      const uvec3& t = mesh_.triangles[static_cast<std::size_t>(hit.triangle)];
+      const uvec3& t = mesh_.triangles[hit.triangle];
       const vec3 weights = hit.weights(), albedo = share * transport::unpack_albedo(hit.albedo);
       for (int c = 0; c < 3; ++c) {
         const vec3 factor = weights[c] * albedo;

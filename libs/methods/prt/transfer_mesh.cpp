@@ -84,7 +84,7 @@ class Welder {
 
   void add(const Triangle& t) {
     uvec3 index;
-    for (int k = 0; k < 3; ++k) index[k] = vertex(t[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < 3; ++k) index[k] = vertex(t[k]);
     if (index.x != index.y && index.y != index.z && index.z != index.x) mesh_.triangles.push_back(index);
   }
 
@@ -126,7 +126,7 @@ std::vector<Triangle> static_triangles(const scene::Scene& scene) {
   for (const scene::Instance& instance : scene.instances) {
     const auto node = static_cast<std::size_t>(instance.node);
     if (scene.nodes[node].movable) continue;
-    const scene::Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+    const scene::Mesh& mesh = scene.meshes[instance.mesh];
     const mat4& to_world = world[node];
     const mat3 normals = glm::transpose(glm::inverse(mat3(to_world)));
     // What is scaled to nothing or mirrored: inverse and winding differ.
@@ -134,8 +134,7 @@ std::vector<Triangle> static_triangles(const scene::Scene& scene) {
     if (!(std::abs(det) > 0)) continue;
     for (const uvec3& index : mesh.triangles) {
       Triangle t;
-      for (int k = 0; k < 3; ++k)
-        t[static_cast<std::size_t>(k)].position = vec3(to_world * vec4(mesh.positions[index[k]], 1));
+      for (int k = 0; k < 3; ++k) t[k].position = vec3(to_world * vec4(mesh.positions[index[k]], 1));
       if (det < 0) std::swap(t[1], t[2]);
       const vec3 cross = cross_of(t);
       const float length = glm::length(cross);
@@ -145,7 +144,7 @@ std::vector<Triangle> static_triangles(const scene::Scene& scene) {
         const std::uint32_t from = index[det < 0 ? (3 - k) % 3 : k];
         const vec3 smooth = mesh.normals.empty() ? flat : glm::normalize(normals * mesh.normals[from]);
         // A smooth normal that looks through its own triangle is none.
-        t[static_cast<std::size_t>(k)].normal = glm::dot(smooth, flat) > least_cosine ? smooth : flat;
+        t[k].normal = glm::dot(smooth, flat) > least_cosine ? smooth : flat;
       }
       triangles.push_back(t);
     }
@@ -215,7 +214,7 @@ MeshIndex::MeshIndex(const TransferMesh& mesh, float reach) : reach_(reach) {
 MeshPlace MeshIndex::find(const rays::SurfacePoint& point) const {
   if (point.moves) return {};
   const geometry::TriangleTree::Found found = tree_.nearest(point.position, reach_, [&](std::int32_t i) {
-    return glm::dot(normals_[static_cast<std::size_t>(i)], point.normal) > least_cosine;
+    return glm::dot(normals_[i], point.normal) > least_cosine;
   });
   return {found.triangle, found.triangle < 0 ? vec3(0) : found.place.weight};
 }

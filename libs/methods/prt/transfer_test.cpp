@@ -83,8 +83,7 @@ TEST(Transfer, AWallHidesHalfTheSky) {
     const glm::dvec3& d = rule.directions[i];
     if (d.x < 0 || d.y < 0) continue;
     sh::eval_basis(4, d, std::span<double>(basis));
-    for (int k = 0; k < 25; ++k)
-      expected += static_cast<float>(rule.weights[i] * d.y * basis[static_cast<std::size_t>(k)]) * sky[k];
+    for (int k = 0; k < 25; ++k) expected += static_cast<float>(rule.weights[i] * d.y * basis[k]) * sky[k];
   }
   for (std::size_t v = 0; v < 3; ++v) {
     const vec3 e = transfer.direct_irradiance(v, sky), open = near.direct_irradiance(v, sky);
@@ -176,8 +175,7 @@ TEST(Transfer, PlacesAreFoundOnTheirSide) {
     ASSERT_GE(place.triangle, 0);
     vec3 at(0);
     for (int k = 0; k < 3; ++k) {
-      const rays::SurfacePoint& v =
-          mesh.vertices[mesh.triangles[static_cast<std::size_t>(place.triangle)][k]];
+      const rays::SurfacePoint& v = mesh.vertices[mesh.triangles[place.triangle][k]];
       EXPECT_GT(v.normal.y * side, 0.99f);
       at += place.weight[k] * v.position;
     }

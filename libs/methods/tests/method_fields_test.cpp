@@ -32,7 +32,7 @@ struct Ddgi {
     field.bias = 0;
     for (int i = 0; i < field.grid.size(); ++i) {
       for (int t = 0; t < ddgi::DdgiField::irradiance_texels; ++t)
-        field.irradiance_of(i)[static_cast<std::size_t>(t)] =
+        field.irradiance_of(i)[t] =
             light_at(field.grid.position(i))
                 .irradiance(ddgi::octahedral_texel(t, ddgi::DdgiField::irradiance_size));
     }
@@ -77,9 +77,8 @@ struct LitBox {
           for (int u = wall; u < size - wall; ++u) {
             for (int v = wall; v < size - wall; ++v) {
               std::array<int, 3> cell{};
-              cell[static_cast<std::size_t>(axis)] = high ? size - wall : wall - 1;
-              cell[static_cast<std::size_t>((axis + 1) % 3)] = u,
-                                                         cell[static_cast<std::size_t>((axis + 2) % 3)] = v;
+              cell[axis] = high ? size - wall : wall - 1;
+              cell[(axis + 1) % 3] = u, cell[(axis + 2) % 3] = v;
               use(vct::Cell{cell[0], cell[1], cell[2]}, axis, high);
             }
           }
@@ -90,7 +89,7 @@ struct LitBox {
     voxels.emplace(grid, vct::Storage::sparse, keys);
     // Of each axis first the side that looks along it, then the one that looks back
     visit([&](const vct::Cell& cell, int axis, bool high) {
-      voxels->find(0, cell)->side[static_cast<std::size_t>(2 * axis + high)] = vec4(colour(axis, high), 1);
+      voxels->find(0, cell)->side[2 * axis + high] = vec4(colour(axis, high), 1);
     });
     voxels->filter();
   }

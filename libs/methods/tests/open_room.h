@@ -102,9 +102,9 @@ class RoomLight final : public rays::DirectLight {
   }
 
  private:
-  vec3 place(int lamp) const { return vec3(lamps_[static_cast<std::size_t>(lamp)].world[3]); }
+  vec3 place(int lamp) const { return vec3(lamps_[lamp].world[3]); }
   vec3 strength(int lamp) const {
-    const scene::LightState& state = lamps_[static_cast<std::size_t>(lamp)];
+    const scene::LightState& state = lamps_[lamp];
     return state.intensity * state.color;
   }
   vec3 radiance(const vec3& d) const {

@@ -34,7 +34,7 @@ float blend(const GridWeights& weights, const ProbeGrid& grid, const vec3& at) {
   const probes::ProbeWeights found = weights.at(at);
   for (const probes::ProbeWeight& w : found.used()) {
     EXPECT_GT(w.weight, 0);
-    sum += w.weight * field(grid.positions[static_cast<std::size_t>(w.probe)]);
+    sum += w.weight * field(grid.positions[w.probe]);
     ones += w.weight;
   }
   EXPECT_NEAR(ones, 1, 1e-5f);

@@ -23,8 +23,7 @@ struct Facing {
   vec3 weight;
 
   explicit Facing(const vec3& direction) : weight(glm::abs(direction)) {
-    for (int axis = 0; axis < 3; ++axis)
-      side[static_cast<std::size_t>(axis)] = static_cast<std::size_t>(facing_side(direction, axis));
+    for (int axis = 0; axis < 3; ++axis) side[axis] = static_cast<std::size_t>(facing_side(direction, axis));
   }
   void add(const Voxel& voxel, float share, vec4& sum) const {
     sum += (share * weight.x) * voxel.side[side[0]];

@@ -21,7 +21,7 @@ vec4 side_of(std::vector<Source>& sources, int side) {
                            [&](const Source& source) { return -toward * source.patch->position[axis]; });
   vec4 seen(0);
   for (const Source& source : sources) {
-    const float own = source.patch->cover[static_cast<std::size_t>(side)];
+    const float own = source.patch->cover[side];
     cover(seen, {own * source.radiance, own});
   }
   return seen;
@@ -60,8 +60,7 @@ void inject(std::span<const VoxelPatches> voxels, const LitPatches& still, const
       add(moving, voxel.moving_begin, voxel.moving_end);
       Voxel* out = pyramid.find(0, voxel_cell(voxel.voxel));
       SSPHH_CHECK(out);
-      for (int side = 0; side < side_count; ++side)
-        out->side[static_cast<std::size_t>(side)] = side_of(sources, side);
+      for (int side = 0; side < side_count; ++side) out->side[side] = side_of(sources, side);
     }
   });
 }

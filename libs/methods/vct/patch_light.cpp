@@ -36,7 +36,7 @@ std::size_t PatchLight::update(int group, const PatchSet& set, const rays::Direc
     if (!wanted[i]) continue;
     vec3 sum(0);
     for (std::uint32_t s = 0; s < set.patches[i].samples; ++s) sum += values[next++];
-    groups_[static_cast<std::size_t>(group)][i] = sum / static_cast<float>(set.patches[i].samples);
+    groups_[group][i] = sum / static_cast<float>(set.patches[i].samples);
   }
   return points.size();
 }

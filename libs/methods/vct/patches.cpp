@@ -27,7 +27,7 @@ struct Draft {
     const float piece = glm::length(fragment.area);
     for (int axis = 0; axis < 3; ++axis) {
       const float a = fragment.area[axis];
-      patch.cover[static_cast<std::size_t>(2 * axis + (a < 0 ? 1 : 0))] += std::abs(a);
+      patch.cover[2 * axis + (a < 0 ? 1 : 0)] += std::abs(a);
     }
     const vec3 centroid = grid.to_world(fragment.centroid);
     area += fragment.area, moment += piece * centroid, size += piece;

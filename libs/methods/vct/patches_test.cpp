@@ -72,7 +72,7 @@ Patch patch_at(const Cell& cell, const vec3& position, const vec3& normal, float
   patch.voxel = voxel_key(cell);
   patch.position = position;
   patch.normal = normal;
-  patch.cover[static_cast<std::size_t>(main_side(normal))] = area;
+  patch.cover[main_side(normal)] = area;
   return patch;
 }
 

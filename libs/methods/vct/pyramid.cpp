@@ -37,7 +37,7 @@ void check_bytes(std::size_t bytes, std::size_t most) {
 Pyramid::Pyramid(const VoxelGrid& grid, Storage storage, std::span<const VoxelKey> occupied,
                  std::size_t most_bytes)
     : grid_(grid), storage_(storage), levels_(static_cast<std::size_t>(grid.levels())) {
-  for (int k = 0; k < levels(); ++k) levels_[static_cast<std::size_t>(k)].size = grid.level_size(k);
+  for (int k = 0; k < levels(); ++k) levels_[k].size = grid.level_size(k);
   if (storage == Storage::dense) {
     std::size_t all = 0;
     for (const Level& level : levels_) all += volume(level.size);
@@ -49,7 +49,7 @@ Pyramid::Pyramid(const VoxelGrid& grid, Storage storage, std::span<const VoxelKe
   const int top = levels() - 1;
   std::vector<std::vector<VoxelKey>> bricks(levels_.size());
   for (int k = 0; k <= top; ++k) {
-    auto& keys = bricks[static_cast<std::size_t>(k)];
+    auto& keys = bricks[k];
     const auto add = [&](VoxelKey key, int divide) {
       const Cell c = voxel_cell(key);
       keys.push_back(voxel_key({c.x / divide, c.y / divide, c.z / divide}));
@@ -57,7 +57,7 @@ Pyramid::Pyramid(const VoxelGrid& grid, Storage storage, std::span<const VoxelKe
     if (k == 0)
       for (const VoxelKey voxel : occupied) add(voxel, brick);
     else
-      for (const VoxelKey finer : bricks[static_cast<std::size_t>(k - 1)]) add(finer, 2);
+      for (const VoxelKey finer : bricks[k - 1]) add(finer, 2);
     std::ranges::sort(keys);
     keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
   }
@@ -66,8 +66,8 @@ Pyramid::Pyramid(const VoxelGrid& grid, Storage storage, std::span<const VoxelKe
   for (const auto& keys : bricks) all += keys.size();
   check_bytes(all * (brick_voxels * sizeof(Voxel) + sizeof(Node)), most_bytes);
   for (int k = top; k >= 0; --k) {
-    Level& level = levels_[static_cast<std::size_t>(k)];
-    for (const VoxelKey key : bricks[static_cast<std::size_t>(k)]) {
+    Level& level = levels_[k];
+    for (const VoxelKey key : bricks[k]) {
       const Cell cell = voxel_cell(key);
       if (k < top) {
         const Cell above{cell.x / 2, cell.y / 2, cell.z / 2};
@@ -89,13 +89,13 @@ const Pyramid::Node* Pyramid::descend(int level, const Cell& brick_cell) const {
   for (int k = top - 1; k >= level; --k) {
     const std::int32_t child = node->child[octant(brick_cell, k - level)];
     if (child < 0) return nullptr;
-    node = &levels_[static_cast<std::size_t>(k)].nodes[static_cast<std::size_t>(child)];
+    node = &levels_[k].nodes[child];
   }
   return node;
 }
 
 BrickView Pyramid::view(int level, const Cell& at) const {
-  const Level& stored = levels_[static_cast<std::size_t>(level)];
+  const Level& stored = levels_[level];
   const Cell& size = stored.size;
   if (at.x < 0 || at.y < 0 || at.z < 0 || at.x >= size.x / brick || at.y >= size.y / brick ||
       at.z >= size.z / brick)
@@ -117,7 +117,7 @@ const Voxel* Pyramid::find(int level, const Cell& c) const {
 }
 
 std::size_t Pyramid::bricks(int level) const {
-  return levels_[static_cast<std::size_t>(level)].voxels.size() / brick_voxels;
+  return levels_[level].voxels.size() / brick_voxels;
 }
 
 std::size_t Pyramid::bytes() const {

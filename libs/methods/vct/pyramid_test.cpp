@@ -35,7 +35,7 @@ vec4 sum_of_side(const Pyramid& voxels, int level, int side) {
     for (int y = 0; y < size.y; ++y) {
       for (int x = 0; x < size.x; ++x) {
         const Voxel* voxel = voxels.find(level, {x, y, z});
-        if (voxel) sum += voxel->side[static_cast<std::size_t>(side)] * std::ldexp(1.0f, 2 * level);
+        if (voxel) sum += voxel->side[side] * std::ldexp(1.0f, 2 * level);
       }
     }
   }

@@ -19,15 +19,14 @@ class VoxelReader {
       const BrickView& view = brick_of(level, low);
       if (!view.first) return false;
       const Voxel* first = view.first + z * view.layer + y * view.row + x;
-      for (int k = 0; k < 8; ++k)
-        out[static_cast<std::size_t>(k)] = first + (k >> 2) * view.layer + (k >> 1 & 1) * view.row + (k & 1);
+      for (int k = 0; k < 8; ++k) out[k] = first + (k >> 2) * view.layer + (k >> 1 & 1) * view.row + (k & 1);
       return true;
     }
     bool any = false;
     for (int k = 0; k < 8; ++k) {
       const Cell c{low.x + (k & 1), low.y + (k >> 1 & 1), low.z + (k >> 2)};
       const BrickView& view = brick_of(level, c);
-      const Voxel*& voxel = out[static_cast<std::size_t>(k)];
+      const Voxel*& voxel = out[k];
       voxel = view.first ? view.first + (c.z & mask) * view.layer + (c.y & mask) * view.row + (c.x & mask)
                          : nullptr;
       any |= voxel != nullptr;
@@ -48,8 +47,7 @@ class VoxelReader {
   /// Of the voxel; remembers the eight bricks of each level in which it was last.
   const BrickView& brick_of(int level, const Cell& c) {
     const Cell brick{c.x >> shift, c.y >> shift, c.z >> shift};
-    Slot& slot = slots_[static_cast<std::size_t>(level)]
-                       [static_cast<std::size_t>((brick.x & 1) | (brick.y & 1) << 1 | (brick.z & 1) << 2)];
+    Slot& slot = slots_[level][(brick.x & 1) | (brick.y & 1) << 1 | (brick.z & 1) << 2];
     if (!(slot.brick == brick)) slot = {brick, voxels_.view(level, brick)};
     return slot.view;
   }

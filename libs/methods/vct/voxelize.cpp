@@ -14,9 +14,9 @@ struct Polygon {
   int count = 0;
   std::array<vec3, 12> corner{};
   void add(const vec3& p) {
-    if (count < static_cast<int>(corner.size())) corner[static_cast<std::size_t>(count++)] = p;
+    if (count < static_cast<int>(corner.size())) corner[count++] = p;
   }
-  const vec3& at(int i) const { return corner[static_cast<std::size_t>(i)]; }
+  const vec3& at(int i) const { return corner[i]; }
 };
 
 /// The part on the side sign·(p[axis] − wall) ≥ 0 (Sutherland & Hodgman, Reentrant Polygon Clipping, 1974).
@@ -92,7 +92,7 @@ void cut_mesh(const scene::Mesh& mesh, const mat4& to_world, const VoxelGrid& gr
           std::array<vec3, 3> corners;
           for (glm::length_t k = 0; k < 3; ++k) {
             const vec3& p = mesh.positions[mesh.triangles[t][k]];
-            corners[static_cast<std::size_t>(k)] = grid.to_grid(vec3(to_world * vec4(p, 1)));
+            corners[k] = grid.to_grid(vec3(to_world * vec4(p, 1)));
           }
           if (mirrored) std::swap(corners[1], corners[2]);
           cut_triangle(grid, corners, chunks[c]);
@@ -130,10 +130,9 @@ std::vector<Fragment> voxelize(const scene::Scene& scene, float time, bool movin
     const auto node = static_cast<std::size_t>(instance.node);
     if (scene.nodes[node].movable != moving) continue;
     const int material = scene::instance_material(scene, instance);
-    const scene::Material* m = material >= 0 ? &scene.materials[static_cast<std::size_t>(material)] : nullptr;
+    const scene::Material* m = material >= 0 ? &scene.materials[material] : nullptr;
     const bool cutout = m && (m->alpha_mode != scene::AlphaMode::opaque || m->is_glass());
-    cut_mesh(scene.meshes[static_cast<std::size_t>(instance.mesh)], world[node], grid, cutout, fragments,
-             control);
+    cut_mesh(scene.meshes[instance.mesh], world[node], grid, cutout, fragments, control);
   }
   std::ranges::stable_sort(fragments, {}, &Fragment::voxel);
   return fragments;

@@ -150,8 +150,7 @@ TEST(LightTree, ChildrenHoldWhatTheirParentSays) {
       EXPECT_EQ(node.cluster.spread, 0);
       continue;
     }
-    const LightNode &l = tree[static_cast<std::size_t>(node.left)],
-                    &r = tree[static_cast<std::size_t>(node.right)];
+    const LightNode &l = tree[node.left], &r = tree[node.right];
     EXPECT_TRUE(node.light == l.light || node.light == r.light);
     EXPECT_EQ(node.cluster.least_radius, std::min(l.cluster.least_radius, r.cluster.least_radius));
     EXPECT_EQ(node.cluster.most_radius, std::max(l.cluster.most_radius, r.cluster.most_radius));

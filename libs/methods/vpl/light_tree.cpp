@@ -26,7 +26,7 @@ class Builder {
 
  private:
   float coordinate(int light, int axis) const {
-    const Vpl& l = lights_[static_cast<std::size_t>(light)];
+    const Vpl& l = lights_[light];
     return axis < 3 ? l.position[axis] : normal_weight_ * l.normal[axis - 3];
   }
 
@@ -49,7 +49,7 @@ class Builder {
     cluster.least_radius = std::numeric_limits<float>::infinity();
     vec3 sum(0);
     for (std::size_t i = begin; i < end; ++i) {
-      const Vpl& light = lights_[static_cast<std::size_t>(order_[i])];
+      const Vpl& light = lights_[order_[i]];
       cluster.bounds.add(light.position);
       cluster.least_radius = std::min(cluster.least_radius, light.radius);
       cluster.most_radius = std::max(cluster.most_radius, light.radius);
@@ -60,7 +60,7 @@ class Builder {
     if (length > 0) cluster.axis = sum / length;
     float least = 1;
     for (std::size_t i = begin; i < end; ++i)
-      least = std::min(least, glm::dot(lights_[static_cast<std::size_t>(order_[i])].normal, cluster.axis));
+      least = std::min(least, glm::dot(lights_[order_[i]].normal, cluster.axis));
     // Rounding of the cosine of a single direction is an angle of a thousandth.
     cluster.spread = end - begin == 1 ? 0 : std::acos(std::max(least, -1.0f)) + 1e-3f;
     return cluster;
@@ -81,8 +81,8 @@ class Builder {
       });
       node.left = add(begin, middle);
       node.right = add(middle, end);
-      const LightNode& l = nodes_[static_cast<std::size_t>(node.left)];
-      const LightNode& r = nodes_[static_cast<std::size_t>(node.right)];
+      const LightNode& l = nodes_[node.left];
+      const LightNode& r = nodes_[node.right];
       const float share = luminance(l.cluster.power) / luminance(node.cluster.power);
       node.light = Pcg32(3, nodes_.size()).uniform() < share ? l.light : r.light;
     }
@@ -118,11 +118,11 @@ CutLight gather_cut(std::span<const LightNode> tree, std::span<const Vpl> lights
   CutLight result;
   if (tree.empty()) return result;
   const auto visible_transfer = [&](int light) {
-    const Vpl& l = lights[static_cast<std::size_t>(light)];
+    const Vpl& l = lights[light];
     const float open = transfer(at, l, params);
     return open > 0 && surfaces.visible(start, l.position) ? open : 0;
   };
-  const auto node_at = [&](int i) -> const LightNode& { return tree[static_cast<std::size_t>(i)]; };
+  const auto node_at = [&](int i) -> const LightNode& { return tree[i]; };
   const auto cut_node = [&](int i, float of_light) {
     const LightNode& node = node_at(i);
     const float bound =

@@ -20,7 +20,7 @@ std::vector<Vpl> merge_lights(std::span<const Vpl> lights, std::size_t most) {
   if (lights.size() <= most) return {lights.begin(), lights.end()};
   if (most == 0) return {};
   const std::vector<LightNode> tree = build_light_tree(lights);
-  const auto node_at = [&](int i) -> const LightNode& { return tree[static_cast<std::size_t>(i)]; };
+  const auto node_at = [&](int i) -> const LightNode& { return tree[i]; };
   const float radius = tree.back().cluster.bounds.radius();
   // A quarter of the scene's size counts as much as a turn by one radian, as in the tree itself.
   const auto part = [&](int i) {
@@ -41,7 +41,7 @@ std::vector<Vpl> merge_lights(std::span<const Vpl> lights, std::size_t most) {
   std::ranges::sort(nodes, {}, [&](int i) { return node_at(i).light; });
   std::vector<Vpl> merged;
   for (const int i : nodes) {
-    merged.push_back(lights[static_cast<std::size_t>(node_at(i).light)]);
+    merged.push_back(lights[node_at(i).light]);
     merged.back().power = node_at(i).cluster.power;
   }
   return merged;

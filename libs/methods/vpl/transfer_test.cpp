@@ -78,11 +78,11 @@ TEST(LightTree, BoundsHoldForEveryLightOfACluster) {
         continue;
       }
       for (const int child : {tree[n].left, tree[n].right}) {
-        const auto& part = below[static_cast<std::size_t>(child)];
+        const auto& part = below[child];
         below[n].insert(below[n].end(), part.begin(), part.end());
       }
       vec3 power(0);
-      for (const int l : below[n]) power += lights[static_cast<std::size_t>(l)].power;
+      for (const int l : below[n]) power += lights[l].power;
       EXPECT_LT(glm::distance(power, tree[n].cluster.power), 1e-4f);
       EXPECT_NE(std::find(below[n].begin(), below[n].end(), tree[n].light), below[n].end());
     }
@@ -93,8 +93,7 @@ TEST(LightTree, BoundsHoldForEveryLightOfACluster) {
       const Receiver at{3.0f * random.uniform3() - 1.5f, sample_uniform_sphere(random.uniform2())};
       for (std::size_t n = 0; n < tree.size(); ++n) {
         const float bound = transfer_bound(at, tree[n].cluster, params);
-        for (const int l : below[n])
-          ASSERT_LE(transfer(at, lights[static_cast<std::size_t>(l)], params), bound * 1.0001f + 1e-6f);
+        for (const int l : below[n]) ASSERT_LE(transfer(at, lights[l], params), bound * 1.0001f + 1e-6f);
       }
     }
   }

@@ -94,7 +94,7 @@ ImageError compare(const Image& reference, const Image& test) {
   error.width = reference.width, error.height = reference.height;
   error.pixels = sums.pixels, error.nonfinite_pixels = sums.nonfinite;
   for (int c = 0; c < 3; ++c) {
-    error.mean_ratio[static_cast<std::size_t>(c)] =
+    error.mean_ratio[c] =
         sums.reference[c] != 0 ? sums.test[c] / sums.reference[c] : std::numeric_limits<double>::quiet_NaN();
   }
   if (sums.pixels == 0) return error;

@@ -74,8 +74,7 @@ Kernel sensitivity(double a, double b, bool root, int radius, double ppd) {
   Kernel kernel(static_cast<std::size_t>(2 * radius + 1));
   for (int i = -radius; i <= radius; ++i) {
     const double x = i / ppd, factor = root ? std::sqrt(a * std::sqrt(pi / b)) : a * std::sqrt(pi / b);
-    kernel[static_cast<std::size_t>(i + radius)] =
-        static_cast<float>(factor * std::exp(-pi * pi * x * x / b));
+    kernel[i + radius] = static_cast<float>(factor * std::exp(-pi * pi * x * x / b));
   }
   return kernel;
 }
@@ -157,7 +156,7 @@ Plane filter_x(const Plane& in, const Kernel& kernel) {
   for_rows(in.height, [&](int y) {
     std::vector<float> padded(static_cast<std::size_t>(in.width + 2 * radius));
     for (int x = -radius; x < in.width + radius; ++x)
-      padded[static_cast<std::size_t>(x + radius)] = in.row(y)[std::clamp(x, 0, in.width - 1)];
+      padded[x + radius] = in.row(y)[std::clamp(x, 0, in.width - 1)];
     for (std::size_t i = 0; i < kernel.size(); ++i) {
       for (int x = 0; x < in.width; ++x) out.row(y)[x] += kernel[i] * padded[static_cast<std::size_t>(x) + i];
     }
@@ -171,7 +170,7 @@ Plane filter_y(const Plane& in, const Kernel& kernel) {
   for_rows(in.height, [&](int y) {
     for (int i = -radius; i <= radius; ++i) {
       const float* source = in.row(std::clamp(y + i, 0, in.height - 1));
-      const float weight = kernel[static_cast<std::size_t>(i + radius)];
+      const float weight = kernel[i + radius];
       for (int x = 0; x < in.width; ++x) out.row(y)[x] += weight * source[x];
     }
   });

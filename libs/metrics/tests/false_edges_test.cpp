@@ -99,7 +99,7 @@ TEST(FalseEdges, AreDrawnOverThePictureInGreyOfItsOwnBrightness) {
   const Image light = picture(halves);
   const FalseEdges edges = found(light, light);
   const image::Rgba8 drawn = edge_picture(edges, light);
-  const auto red_at = [&](int x) { return drawn.rgba[static_cast<std::size_t>(4 * (45 * width + x))]; };
+  const auto red_at = [&](int x) { return drawn.rgba[4 * (45 * width + x)]; };
   // Of the encoded brightness; 8 bits hold it within 1 of 70.
   EXPECT_NEAR(static_cast<double>(red_at(130)) / red_at(30), std::pow(0.2, 1 / 2.2), 0.02);
   EXPECT_LE(red_at(30), 153) << "so that edges are brighter than any light";

@@ -55,13 +55,12 @@ TEST(HeatMap, ShowsTheMeanOfTheChannelsWithItsSign) {
       << "of two magnitudes, 3 and 0.5, the lower is the 99th percentile";
   const Rgba8 picture = heat_map(map, ColorRamp::diverging, 6);
   const vec3 half = ramp_color(ColorRamp::diverging, -0.5f);
-  for (int c = 0; c < 3; ++c)
-    EXPECT_NEAR(picture.rgba[static_cast<std::size_t>(c)], 255 * half[c], 0.51f) << c;
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(picture.rgba[c], 255 * half[c], 0.51f) << c;
 }
 
 TEST(HeatMap, ScalesByThe99thPercentileAndIgnoresNan) {
   Image map(100, 1, 1);
-  for (int x = 0; x < 100; ++x) map.pixels[static_cast<std::size_t>(x)] = static_cast<float>(x + 1);
+  for (int x = 0; x < 100; ++x) map.pixels[x] = static_cast<float>(x + 1);
   map.pixels[99] = 1e9f;
   EXPECT_EQ(automatic_scale(map), 99);
   map.pixels[99] = std::numeric_limits<float>::quiet_NaN();

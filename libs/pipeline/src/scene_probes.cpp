@@ -78,8 +78,7 @@ std::vector<vec3> viewpoints(const scene::Scene& scene, const rays::TransportSou
                              std::span<const probes::ProbeSet> sets, float time) {
   std::vector<vec3> places;
   const std::vector<mat4> world = scene::world_matrices(scene, time);
-  for (const scene::Camera& camera : scene.cameras)
-    places.emplace_back(world[static_cast<std::size_t>(camera.node)][3]);
+  for (const scene::Camera& camera : scene.cameras) places.emplace_back(world[camera.node][3]);
   for (const probes::ProbeSet& set : sets) {
     for (const probes::Probe& probe : set.probes) places.push_back(probe.position);
   }

@@ -203,7 +203,7 @@ PlaceParams place_params(const scene::Scene& scene, float time) {
   params.manual = scene::sphl_places(scene, time);
   for (const scene::ProbePlace& place : params.manual) params.interest.push_back(place.position);
   const std::vector<mat4> world = scene::world_matrices(scene, time);
-  const auto add = [&](int node) { params.interest.emplace_back(world[static_cast<std::size_t>(node)][3]); };
+  const auto add = [&](int node) { params.interest.emplace_back(world[node][3]); };
   for (const scene::Camera& camera : scene.cameras) add(camera.node);
   for (const scene::Light& light : scene.lights) {
     if (light.type != scene::LightType::directional) add(light.node);

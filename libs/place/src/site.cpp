@@ -18,7 +18,7 @@ Site look_around(const rays::TransportSource& source, const vec3& position, int 
   SSPHH_CHECK(rays <= fan_size);
   const auto count = static_cast<std::size_t>(rays);
   for (int i = 0; i < rays; ++i) {
-    queries[static_cast<std::size_t>(i)] = {position, spherical_fibonacci(i, rays)};
+    queries[i] = {position, spherical_fibonacci(i, rays)};
   }
   source.intersect(0, std::span(queries).first(count), std::span(hits).first(count));
 

@@ -78,7 +78,7 @@ const std::string* Sweep::passes(const vec3& position, float clearance) const {
       std::array<rays::RayQuery, part_fan> rays;
       std::array<rays::RayHit, part_fan> hits;
       for (int i = 0; i < part_fan; ++i) {
-        rays[static_cast<std::size_t>(i)] = {p, spherical_fibonacci(i, part_fan)};
+        rays[i] = {p, spherical_fibonacci(i, part_fan)};
       }
       source_.intersect(part.index, rays, hits);
       int backs = 0;

@@ -240,7 +240,7 @@ TEST(PlaceRules, WithoutASpacingTheFirstGridOfAHundredToTwoHundredIsTaken) {
 
 TEST(PlaceFilter, KeepsEdgesBetweenWhatIsKept) {
   std::vector<Draft> drafts(5);
-  for (int i = 0; i < 5; ++i) drafts[static_cast<std::size_t>(i)].position = vec3(i, 0, 0);
+  for (int i = 0; i < 5; ++i) drafts[i].position = vec3(i, 0, 0);
   std::vector<PlacedEdge> edges{{0, 1, false}, {1, 3, true}, {2, 3, false}, {3, 4, false}};
   filter(drafts, edges, {false, true, false, true, true});
   ASSERT_EQ(drafts.size(), 3u);
@@ -253,7 +253,7 @@ TEST(PlaceReachable, WhoSeesAShiningSurfaceOrIsManualLeadsTheOthers) {
   const PlaceParams params;
   const PlaceContext context{empty_space, params, {}, {0.04f, 0.25f}, 1};
   std::vector<Draft> drafts(6);
-  for (int i = 0; i < 6; ++i) drafts[static_cast<std::size_t>(i)].position = vec3(10 * (i / 2) + i % 2, 0, 0);
+  for (int i = 0; i < 6; ++i) drafts[i].position = vec3(10 * (i / 2) + i % 2, 0, 0);
   const std::vector<PlacedEdge> edges{{0, 1, false}, {2, 3, false}, {4, 5, false}};
   drafts[1].site.emitter = true;
   EXPECT_EQ(reachable(context, drafts, edges), (std::vector<bool>{true, true, false, false, false, false}));
@@ -263,8 +263,7 @@ TEST(PlaceReachable, WhoSeesAShiningSurfaceOrIsManualLeadsTheOthers) {
 
 TEST(PlaceSpread, OfEquallyFarOnesTheWidestComesFirst) {
   std::vector<Draft> drafts(4);
-  for (int i = 0; i < 4; ++i)
-    drafts[static_cast<std::size_t>(i)].site.nearest = static_cast<float>(i == 2 ? 5 : 1);
+  for (int i = 0; i < 4; ++i) drafts[i].site.nearest = static_cast<float>(i == 2 ? 5 : 1);
   EXPECT_EQ(most_spread(drafts, {}, 1), (std::vector<bool>{false, false, true, false}));
   EXPECT_EQ(most_spread(drafts, {}, 2), (std::vector<bool>{true, false, true, false}));
   EXPECT_EQ(most_spread(drafts, {}, 9), std::vector<bool>(4, true));

@@ -294,7 +294,7 @@ TEST(Site, HarmonicMeanInAHollowSphere) {
 TEST(Spread, AlongEdgesAndNotThroughWalls) {
   // A chain of five and one that nothing is connected with, beside its head.
   std::vector<Draft> drafts(6);
-  for (int i = 0; i < 5; ++i) drafts[static_cast<std::size_t>(i)].position = vec3(i, 0, 0);
+  for (int i = 0; i < 5; ++i) drafts[i].position = vec3(i, 0, 0);
   drafts[0].kind = PlaceKind::manual;
   drafts[5].position = vec3(0.1f, 0, 0);
   const std::vector<PlacedEdge> edges = {{0, 1, false}, {1, 2, false}, {2, 3, false}, {3, 4, false}};

@@ -39,7 +39,7 @@ struct RandomGraph {
   explicit RandomGraph(std::uint64_t seed) : drafts(27) {
     Pcg32 random(seed);
     for (int i = 0; i < 27; ++i) {
-      Draft& draft = drafts[static_cast<std::size_t>(i)];
+      Draft& draft = drafts[i];
       draft.position = vec3(i % 3, 2 * (i / 3 % 3), 4 * (i / 9));
       draft.site.nearest = random.uniform();
       if (random.uniform() < 0.08f) draft.kind = PlaceKind::manual;

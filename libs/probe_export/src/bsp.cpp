@@ -40,8 +40,8 @@ class Builder {
 
  private:
   const vec3& corner(std::int32_t t, int k) const {
-    const std::int32_t index = tetrahedra_[static_cast<std::size_t>(t)][static_cast<std::size_t>(k)];
-    return points_[static_cast<std::size_t>(index)];
+    const std::int32_t index = tetrahedra_[t][k];
+    return points_[index];
   }
 
   /// Of the face opposite of corner k, which is under it.
@@ -121,8 +121,8 @@ class Builder {
     path_.push_back(face);
     const std::int32_t above = child(over), below = child(under);
     path_.pop_back();
-    nodes_[static_cast<std::size_t>(index)].over = above;
-    nodes_[static_cast<std::size_t>(index)].under = below;
+    nodes_[index].over = above;
+    nodes_[index].under = below;
     return index;
   }
 

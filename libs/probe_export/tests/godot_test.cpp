@@ -80,7 +80,7 @@ class GodotReader {
     if (t < 0) return vec3(0);
     const vec4 w = glm::clamp(barycentric(t, p), 0.0f, 1.0f);
     for (int k = 0; k < 4; ++k) {
-      const auto index = static_cast<std::size_t>(tetrahedra_[static_cast<std::size_t>(4 * t + k)]);
+      const auto index = static_cast<std::size_t>(tetrahedra_[4 * t + k]);
       for (std::size_t j = 0; j < 9; ++j) {
         const float* color = sh_.data() + 4 * (9 * index + j);
         sh[j] += w[k] * vec3(color[0], color[1], color[2]);
@@ -94,7 +94,7 @@ class GodotReader {
 
  private:
   vec3 corner(std::int32_t t, int k) const {
-    const auto i = static_cast<std::size_t>(3 * tetrahedra_[static_cast<std::size_t>(4 * t + k)]);
+    const auto i = static_cast<std::size_t>(3 * tetrahedra_[4 * t + k]);
     return {points_[i], points_[i + 1], points_[i + 2]};
   }
 

@@ -17,9 +17,9 @@ std::size_t keep_possible(std::span<geometry::Near> near, std::span<const vec3> 
   for (std::size_t i = 0; i < near.size(); ++i) {
     // |x − a|² − |x − b|² is linear in x: it is below 0 all over the cube if it is at its worst corner
     int nearer = 0;
-    const vec3 b = probes[static_cast<std::size_t>(near[i].index)] - middle;
+    const vec3 b = probes[near[i].index] - middle;
     for (std::size_t j = 0; j < i && nearer < CandidateGrid::wanted; ++j) {
-      const vec3 a = probes[static_cast<std::size_t>(near[j].index)] - middle;
+      const vec3 a = probes[near[j].index] - middle;
       const vec3 apart = glm::abs(a - b);
       nearer += glm::dot(a, a) - glm::dot(b, b) + 2 * half * (apart.x + apart.y + apart.z) < 0;
     }
@@ -59,7 +59,7 @@ CandidateGrid make_candidate_grid(std::span<const vec3> probes, const scene::Bou
       const vec3 place(c % grid.cells.x, c / grid.cells.x % grid.cells.y, c / (grid.cells.x * grid.cells.y));
       const vec3 middle = grid.origin + grid.cell_size * (place + 0.5f);
       const int wanted = nearest.find(middle, std::span(near).first(CandidateGrid::wanted));
-      const float farthest = std::sqrt(near[static_cast<std::size_t>(wanted - 1)].distance2);
+      const float farthest = std::sqrt(near[wanted - 1].distance2);
       const int found = nearest.find(middle, near, farthest + diagonal);
       const std::size_t possible =
           keep_possible(std::span(near).first(static_cast<std::size_t>(found)), probes, middle, half);

@@ -24,10 +24,8 @@ void select(const Probe& probe, const HierParams& params, std::vector<int>& orde
   const std::size_t count = params.neighbors < 0
                                 ? order.size()
                                 : std::min(order.size(), static_cast<std::size_t>(params.neighbors));
-  std::partial_sort(
-      order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(), [&](int a, int b) {
-        return stronger(probe.edges[static_cast<std::size_t>(a)], probe.edges[static_cast<std::size_t>(b)]);
-      });
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
+                    [&](int a, int b) { return stronger(probe.edges[a], probe.edges[b]); });
   order.resize(count);
 }
 
@@ -39,8 +37,8 @@ void gather(const ProbeSet& set, const HierParams& params, std::size_t i, std::v
   const auto k = static_cast<std::size_t>(sh::coefficient_count(set.degree));
   neighbor.values.assign(k, vec3(0));
   for (const int e : order) {
-    const Edge& edge = probe.edges[static_cast<std::size_t>(e)];
-    const sh::RadianceSh& source = set.probes[static_cast<std::size_t>(edge.from)].self;
+    const Edge& edge = probe.edges[e];
+    const sh::RadianceSh& source = set.probes[edge.from].self;
     add_neighbor(neighbor, edge, source, params.op);
   }
   sum.values.assign(probe.self.values.begin(), probe.self.values.end());
@@ -129,7 +127,7 @@ std::optional<Contraction> hier_contraction(const ProbeSet& set, const HierParam
   std::vector<Factor> factors;
   for (std::size_t i = 0; i < set.probes.size(); ++i) {
     for (const int e : select_neighbors(set.probes[i], params)) {
-      const Edge& edge = set.probes[i].edges[static_cast<std::size_t>(e)];
+      const Edge& edge = set.probes[i].edges[e];
       factors.push_back(
           {i, static_cast<std::size_t>(edge.from), double(std::max(0.0f, max_component(sh::mean(edge.h))))});
     }

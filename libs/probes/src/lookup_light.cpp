@@ -21,7 +21,7 @@ struct LightLookup::Data {
     ProbeSight::NearList near;
     const int count = sight->nearest(x, near);
     for (int i = 0; i < count; ++i) {
-      const geometry::Near& candidate = near[static_cast<std::size_t>(i)];
+      const geometry::Near& candidate = near[i];
       if (!(candidate.distance2 > 0)) continue;
       const vec3 direction = (probes.position(candidate.index) - x) / std::sqrt(candidate.distance2);
       if (glm::dot(n, direction) > 0 && sight->sees(candidate, at, sees))

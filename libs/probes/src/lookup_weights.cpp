@@ -31,11 +31,10 @@ class DistanceWeights : public VisibleWeights {
       visible = std::min(count, wanted_);
     }
     float nearest2 = near[0].distance2;
-    for (int i = 1; i < visible; ++i)
-      nearest2 = std::min(nearest2, near[static_cast<std::size_t>(i)].distance2);
+    for (int i = 1; i < visible; ++i) nearest2 = std::min(nearest2, near[i].distance2);
     ProbeWeights out;
     for (int i = 0; i < visible; ++i) {
-      const geometry::Near& probe = near[static_cast<std::size_t>(i)];
+      const geometry::Near& probe = near[i];
       out.add(probe.index, distance_weight(probe, nearest2, x, n));
     }
     normalise(out);
@@ -81,7 +80,7 @@ class TrilinearWeights final : public DistanceWeights {
     const int count = sight_.nearest(x, near, std::sqrt(3.0f) * spacing);
     ProbeWeights out;
     for (int i = 0; i < count && out.count < max_weights; ++i) {
-      const geometry::Near& probe = near[static_cast<std::size_t>(i)];
+      const geometry::Near& probe = near[i];
       const vec3 tent = 1.0f - glm::abs(sight_.position(probe.index) - x) / spacing;
       if (!(std::min({tent.x, tent.y, tent.z}) > least_tent) || !sight_.sees(probe, point, sees)) continue;
       out.add(probe.index, tent.x * tent.y * tent.z);
@@ -171,8 +170,7 @@ float median_spacing(std::span<const vec3> positions) {
     const int count = nearest.find(p, near);
     float found = std::numeric_limits<float>::infinity();
     for (int i = count - 1; i >= 0; --i) {
-      if (near[static_cast<std::size_t>(i)].distance2 > 0)
-        found = std::sqrt(near[static_cast<std::size_t>(i)].distance2);
+      if (near[i].distance2 > 0) found = std::sqrt(near[i].distance2);
     }
     distance.push_back(found);
   }

@@ -98,8 +98,7 @@ void PackedProbes::glossy_basis(const vec3& direction, float roughness, Basis& b
   radiance_basis(direction, basis);
   const auto scales = sh::glossy_band_scales(roughness);
   for (int l = 0; l <= radiance_.degree; ++l) {
-    for (int k = l * l; k < (l + 1) * (l + 1); ++k)
-      basis[static_cast<std::size_t>(k)] *= scales[static_cast<std::size_t>(l)];
+    for (int k = l * l; k < (l + 1) * (l + 1); ++k) basis[k] *= scales[l];
   }
 }
 

@@ -27,7 +27,7 @@ class PackedProbes {
   int count() const { return static_cast<int>(positions_.size()); }
 
   const std::vector<vec3>& positions() const { return positions_; }
-  const vec3& position(int probe) const { return positions_[static_cast<std::size_t>(probe)]; }
+  const vec3& position(int probe) const { return positions_[probe]; }
   /// L(ω), not negative. `basis` holds Y_k(ω), perhaps scaled by band.
   vec3 radiance(int probe, const float* basis) const { return radiance_.dot(probe, basis); }
   /// E(n) of what moves or stands still, not negative.

@@ -90,8 +90,8 @@ FittedPoints read_fitted(ByteReader& in, std::size_t probe_count) {
     for (int k = 0; k < weights.count; ++k) {
       const auto probe = in.value<std::uint32_t>("fitted probe");
       if (probe >= probe_count) in.fail("fitted probe", "must be a probe's index");
-      weights.entries[static_cast<std::size_t>(k)] = {
-          static_cast<int>(probe), in.value_in<float>("fitted weight", 0, limits::fitted_weight)};
+      weights.entries[k] = {static_cast<int>(probe),
+                            in.value_in<float>("fitted weight", 0, limits::fitted_weight)};
     }
   }
   return fitted;

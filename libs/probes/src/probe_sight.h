@@ -21,7 +21,7 @@ class ProbeSight {
 
   std::size_t bytes() const { return positions_.size() * sizeof(vec3) + nearest_.bytes(); }
   float spacing() const { return spacing_; }
-  const vec3& position(int probe) const { return positions_[static_cast<std::size_t>(probe)]; }
+  const vec3& position(int probe) const { return positions_[probe]; }
 
   /// Of the angle between n and the way from x to the probe; 1 where it stands at x.
   float cosine(int probe, const vec3& x, const vec3& n) const {
@@ -44,10 +44,10 @@ class ProbeSight {
                     const SeesProbe& sees) const {
     int visible = 0;
     for (int i = 0; i < count && visible < wanted; ++i) {
-      const geometry::Near candidate = near[static_cast<std::size_t>(i)];
+      const geometry::Near candidate = near[i];
       if (!this->sees(candidate, at, sees)) continue;
       // Those that they replace were all hidden.
-      std::swap(near[static_cast<std::size_t>(visible++)], near[static_cast<std::size_t>(i)]);
+      std::swap(near[visible++], near[i]);
     }
     return visible;
   }

@@ -11,11 +11,11 @@ std::vector<StillTriangle> still_triangles(const scene::Scene& scene, float time
   for (const scene::Instance& instance : scene.instances) {
     if (instance.mesh < 0) continue;
     const bool posed = instance.node >= 0;
-    if (posed && scene.nodes[static_cast<std::size_t>(instance.node)].movable) continue;
+    if (posed && scene.nodes[instance.node].movable) continue;
     const int material = scene::instance_material(scene, instance);
-    if (material >= 0 && scene.materials[static_cast<std::size_t>(material)].unlit) continue;
-    const mat4 to_world = posed ? world[static_cast<std::size_t>(instance.node)] : mat4(1);
-    const scene::Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+    if (material >= 0 && scene.materials[material].unlit) continue;
+    const mat4 to_world = posed ? world[instance.node] : mat4(1);
+    const scene::Mesh& mesh = scene.meshes[instance.mesh];
     const auto corner = [&](unsigned i) { return vec3(to_world * vec4(mesh.positions[i], 1)); };
     for (const uvec3& t : mesh.triangles) {
       const StillTriangle now{corner(t.x), corner(t.y), corner(t.z)};

@@ -189,11 +189,9 @@ class Preparation {
         const std::optional<vec3> x = middle_within(t, low, high);
         if (!x) return;
         const ivec3 at = glm::clamp(ivec3(glm::floor((*x - corner) / part)), -1, parts) + 1;
-        Layers& taken =
-            work.taken[static_cast<std::size_t>(((at.z * along + at.y) * along + at.x) * 3 + axis)];
+        Layers& taken = work.taken[((at.z * along + at.y) * along + at.x) * 3 + axis];
         if (taken.count == Layers::most || is_taken(taken, work.samples, *x, normal, part)) return;
-        taken.samples[static_cast<std::size_t>(taken.count++)] =
-            static_cast<std::uint32_t>(work.samples.size());
+        taken.samples[taken.count++] = static_cast<std::uint32_t>(work.samples.size());
         work.samples.add(*x, normal, glm::clamp((*x - corner) / size, 0.0f, 1.0f));
       });
     }

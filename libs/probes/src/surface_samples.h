@@ -27,9 +27,7 @@ class SurfaceSamples {
   /// Of one side; the other's is −normal.
   vec3 normal(std::size_t i) const { return {numbers_[3][i], numbers_[4][i], numbers_[5][i]}; }
   /// The bit of the square in which it lies, of the cell seen along an axis.
-  std::uint64_t square(std::size_t i, int axis) const {
-    return std::uint64_t{1} << squares_[i][static_cast<std::size_t>(axis)];
-  }
+  std::uint64_t square(std::size_t i, int axis) const { return std::uint64_t{1} << squares_[i][axis]; }
   /// 1 where a normal faces the other side's way.
   std::size_t side(std::size_t i, const vec3& n) const { return glm::dot(normal(i), n) < 0; }
 

@@ -29,10 +29,10 @@ float spacing_at(const rays::SurfacePoint& point, std::span<const rays::SurfaceP
   float sum = 0, most = 0, second = 0;
   std::size_t others = 0, found = 0;
   for (int k = 0; k < count; ++k) {
-    const geometry::Near& n = near[static_cast<std::size_t>(k)];
+    const geometry::Near& n = near[k];
     if (!(n.distance2 > 0)) continue;
     if (others++ < any) most = share_of_any * std::sqrt(n.distance2);
-    const rays::SurfacePoint& other = points[static_cast<std::size_t>(n.index)];
+    const rays::SurfacePoint& other = points[n.index];
     const float off = glm::dot(other.position - point.position, point.normal);
     if (found == along || glm::dot(other.normal, point.normal) < fitted_cosine ||
         off * off > fitted_off_plane * fitted_off_plane * n.distance2)

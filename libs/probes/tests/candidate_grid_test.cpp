@@ -38,7 +38,7 @@ TEST(CandidateGrid, ListsHoldTheNearestOfEveryPointInOrderFromTheMiddle) {
     std::erase(list, -1);
     float before = 0;
     for (const int probe : list) {
-      const float d = glm::distance(probes[static_cast<std::size_t>(probe)], low + 0.5f * grid.cell_size);
+      const float d = glm::distance(probes[probe], low + 0.5f * grid.cell_size);
       EXPECT_GE(d, before);
       before = d;
     }
@@ -64,7 +64,7 @@ TEST(CandidateGrid, NoPointIsFartherThanTheReachOfAProbeThatItMayChoose) {
     const glm::ivec3 c(glm::floor((x - grid.origin) / grid.cell_size));
     const int cell = (c.z * grid.cells.y + c.y) * grid.cells.x + c.x;
     for (int i = 0; i < grid.length; ++i) {
-      const int probe = grid.lists[static_cast<std::size_t>(cell * grid.length + i)];
+      const int probe = grid.lists[cell * grid.length + i];
       if (probe < 0) break;
       const auto p = static_cast<std::size_t>(probe);
       EXPECT_LE(glm::distance(probes[p], x), reach[p]);

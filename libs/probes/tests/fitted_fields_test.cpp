@@ -88,8 +88,7 @@ TEST(FittedFields, LightIsThatOfALinearFitToThePointsAround) {
     test::VariedLight light;
     for (std::size_t k = 0; k < shares.size(); ++k) {
       for (const ProbeWeight& entry : set.fitted->weights[k].used())
-        light = light + static_cast<float>(shares[k]) * entry.weight *
-                            test::light_at(places[static_cast<std::size_t>(entry.probe)]);
+        light = light + static_cast<float>(shares[k]) * entry.weight * test::light_at(places[entry.probe]);
     }
     const vec3 found = lookup.irradiance(p), expected = light.irradiance(p.normal);
     // Floats in an ill-conditioned fit; all are 10 to 40

@@ -22,7 +22,7 @@ using test::root_4pi_d;
 std::vector<glm::dvec3> dense_reference(const ProbeSet& set, const HierParams& params, std::size_t i) {
   const std::size_t n = set.probes.size();
   std::vector<const Edge*> dense(n, nullptr);
-  for (const Edge& edge : set.probes[i].edges) dense[static_cast<std::size_t>(edge.from)] = &edge;
+  for (const Edge& edge : set.probes[i].edges) dense[edge.from] = &edge;
   std::vector<std::size_t> ranked;
   for (std::size_t j = 0; j < n; ++j) {
     if (j != i && dense[j] && dense[j]->transfer > params.threshold) ranked.push_back(j);

@@ -35,7 +35,7 @@ std::vector<vec3> grid(int n, float spacing) {
 std::map<int, double> by_probe(const ProbeWeights& weights) {
   std::map<int, double> result;
   for (int i = 0; i < weights.count; ++i) {
-    const ProbeWeight& entry = weights.entries[static_cast<std::size_t>(i)];
+    const ProbeWeight& entry = weights.entries[i];
     EXPECT_TRUE(result.emplace(entry.probe, double(entry.weight)).second) << "probe twice";
   }
   return result;
@@ -154,7 +154,7 @@ TEST(LookupWeights, MlsIsTheValueOfAWeightedLinearFit) {
       // Equal distances may be ordered otherwise in doubles; such probes lie at the end of the list.
       double constant = 0;
       for (const auto& [probe, w] : actual) {
-        EXPECT_NEAR(w, expected[static_cast<std::size_t>(probe)], 1e-4) << i << " " << probe;
+        EXPECT_NEAR(w, expected[probe], 1e-4) << i << " " << probe;
         constant += w;
       }
       EXPECT_NEAR(constant, 1, 1e-5);
@@ -172,7 +172,7 @@ TEST(LookupWeights, MlsKeepsALinearFieldWhereProbesSurroundThePoint) {
   const auto error_at = [&](const vec3& x) {
     double value = 0;
     for (const auto& [probe, w] : by_probe(lookup->at({x, up})))
-      value += w * double(2 + glm::dot(slope, positions[static_cast<std::size_t>(probe)]));
+      value += w * double(2 + glm::dot(slope, positions[probe]));
     return std::abs(value - double(2 + glm::dot(slope, x)));
   };
   Pcg32 random(5);
@@ -232,7 +232,7 @@ TEST(LookupWeights, HiddenProbesGetNoWeight) {
       const vec3 x = 2.4f * random.uniform3();
       // Up as the normal: sight starts at the same x.
       for (const auto& [probe, w] : by_probe(lookup->at({x, up})))
-        EXPECT_EQ(positions[static_cast<std::size_t>(probe)].x < 1, x.x < 1) << name_of(method);
+        EXPECT_EQ(positions[probe].x < 1, x.x < 1) << name_of(method);
     }
   }
 }

@@ -90,8 +90,8 @@ TEST(ProbeFile, JsonRoundTripKeepsFiveDigitsAndIsThenIdempotent) {
     EXPECT_EQ(back.fitted->points[p].normal, set.fitted->points[p].normal);
     ASSERT_EQ(back.fitted->weights[p].count, set.fitted->weights[p].count);
     for (int k = 0; k < set.fitted->weights[p].count; ++k) {
-      const ProbeWeight a = set.fitted->weights[p].used()[static_cast<std::size_t>(k)];
-      const ProbeWeight b = back.fitted->weights[p].used()[static_cast<std::size_t>(k)];
+      const ProbeWeight a = set.fitted->weights[p].used()[k];
+      const ProbeWeight b = back.fitted->weights[p].used()[k];
       EXPECT_EQ(b.probe, a.probe);
       EXPECT_NEAR(b.weight, a.weight, 5.1e-5f * a.weight);
     }

@@ -66,7 +66,7 @@ std::vector<vec3> lighting(const SurfaceLists& surfaces, const vec3& x) {
   const vec3 u = (x - grid.origin) / grid.cell_size;
   const ivec3 cell(glm::floor(u));
   const int index = (cell.z * grid.cells.y + cell.y) * grid.cells.x + cell.x;
-  const uvec2 range = surfaces.ranges[static_cast<std::size_t>(index)];
+  const uvec2 range = surfaces.ranges[index];
   const int square = surface_square(u - vec3(cell), 1);
   std::vector<vec3> places;
   for (unsigned i = 0; i < range.y; ++i) {
@@ -194,7 +194,7 @@ std::string row_text(const SurfaceLists& surfaces, int y, int z) {
   const ivec3& cells = surfaces.grids[0].cells;
   for (int x = 0; x < cells.x; ++x) {
     const double weight = 1 + 0.1 * x;
-    const uvec2 range = surfaces.ranges[static_cast<std::size_t>((z * cells.y + y) * cells.x + x)];
+    const uvec2 range = surfaces.ranges[(z * cells.y + y) * cells.x + x];
     if (range.y == 0) continue;
     points += weight * range.y;
     for (unsigned i = 0; i < range.y; ++i) {

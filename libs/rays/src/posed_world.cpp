@@ -26,7 +26,7 @@ PosedWorld::PosedWorld(const TransportSource& source, std::span<const mat4> pose
     : source_(source), bounds_(source.part_bounds(0)) {
   require(static_cast<int>(poses.size()) == source.part_count(), "posed world",
           "there is not one pose for each part");
-  for (int part = 1; part < source.part_count(); ++part) place(part, poses[static_cast<std::size_t>(part)]);
+  for (int part = 1; part < source.part_count(); ++part) place(part, poses[part]);
 }
 
 void PosedWorld::place(int part, const mat4& pose) {

@@ -42,8 +42,7 @@ void DepthBounds::update_tile(int tile, const MapAtlas& maps, Shaders& shaders, 
     gl::texture_barrier();
     const int side = 1 << (levels_ - 1 - level);
     const gl::Rect rect{layout_.column(tile) * side, layout_.row(tile) * side, side, side};
-    gl::bind_framebuffer(targets_[static_cast<std::size_t>(layout_.layer(tile) * levels_ + level)].id(),
-                         rect);
+    gl::bind_framebuffer(targets_[layout_.layer(tile) * levels_ + level].id(), rect);
     gl::Program& program = shaders.depth_bounds(level == 0);
     program.set("target", rect.x, rect.y);
     if (level == 0) {

@@ -202,7 +202,7 @@ sh::IrradianceSh environment_irradiance(const scene::Environment& environment) {
                                                (static_cast<float>(y) + 0.5f) / static_cast<float>(height));
       sh::eval_basis(degree, vec3(c * d.x + s * d.z, d.y, c * d.z - s * d.x), basis);
       const vec3 radiance = environment.color * image.rgb(x, y) * solid_angle;
-      for (int k = 0; k < 25; ++k) light[k] += radiance * basis[static_cast<std::size_t>(k)];
+      for (int k = 0; k < 25; ++k) light[k] += radiance * basis[k];
     }
   }
   return sh::irradiance_from_radiance(light);
@@ -210,7 +210,7 @@ sh::IrradianceSh environment_irradiance(const scene::Environment& environment) {
 
 vec3 mean_emission(const scene::Scene& scene, const scene::Material& material) {
   if (material.emission_texture.texture < 0) return material.emission;
-  const scene::Texture& texture = scene.textures[static_cast<std::size_t>(material.emission_texture.texture)];
+  const scene::Texture& texture = scene.textures[material.emission_texture.texture];
   glm::dvec3 sum(0);
   const std::size_t texels = texture.rgba.size() / 4;
   for (std::size_t i = 0; i < texels; ++i) {

@@ -20,7 +20,7 @@ FittedLight::FittedLight(const probes::FittedSurfaces& surfaces, int probe_count
   std::vector<std::size_t> next = first_of_probe_;
   for (std::size_t i = 0; i < points_.points.size(); ++i) {
     for (const probes::ProbeWeight& weight : points_.weights[i].used())
-      lit_by_[next[static_cast<std::size_t>(weight.probe)]++] = static_cast<std::uint32_t>(i);
+      lit_by_[next[weight.probe]++] = static_cast<std::uint32_t>(i);
   }
   marked_.assign(points_.points.size(), 0);
 }

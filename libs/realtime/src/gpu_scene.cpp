@@ -124,7 +124,7 @@ GpuScene::GpuScene(const scene::Scene& scene, const std::vector<mat4>& world, fl
     const auto m = none ? materials_.size() - 1 : static_cast<std::size_t>(material);
     const bool emissive = !none && scene.materials[m].emissive();
     groups_.push_back(emissive ? scene::light_group_index(groups, scene::light_group(scene, instance)) : -1);
-    const bool moves = instance.node >= 0 && scene.nodes[static_cast<std::size_t>(instance.node)].movable;
+    const bool moves = instance.node >= 0 && scene.nodes[instance.node].movable;
     gpu.emission_scale.w = moves ? 2 : 0;
     instances_.push_back(gpu);
     nodes_.push_back(instance.node);
@@ -181,8 +181,8 @@ void GpuScene::classify(const std::vector<scene::Material>& materials) {
   }
   any_full_ = any_glass_ = false;
   for (DrawItem& item : items_) {
-    item.surface_class = classes_[static_cast<std::size_t>(item.material)];
-    const GlassKind glass = glass_[static_cast<std::size_t>(item.material)];
+    item.surface_class = classes_[item.material];
+    const GlassKind glass = glass_[item.material];
     item.glass = glass != GlassKind::none;
     any_full_ |= item.surface_class == surface_class::full && glass != GlassKind::everywhere;
     any_glass_ |= item.glass;
@@ -201,7 +201,7 @@ void GpuScene::pose(const std::vector<mat4>& world, std::vector<scene::Bounds>& 
     }
   };
   for (std::size_t i = 0; i < instances_.size(); ++i) {
-    const mat4 now = nodes_[i] >= 0 ? world[static_cast<std::size_t>(nodes_[i])] : mat4(1);
+    const mat4 now = nodes_[i] >= 0 ? world[nodes_[i]] : mat4(1);
     if (now == instances_[i].world && !bounds_.empty()) continue;
     add_boxes(static_cast<int>(i));
     set_world(instances_[i], now);

@@ -34,7 +34,7 @@ int GpuScene::texture_for(const scene::Scene& scene, int texture, bool srgb, Fra
   const auto [place, is_new] =
       texture_index_.try_emplace({texture, srgb}, static_cast<int>(textures_.size()));
   if (!is_new) return place->second;
-  const scene::Texture& source = scene.textures[static_cast<std::size_t>(texture)];
+  const scene::Texture& source = scene.textures[texture];
   if (source.width <= 0 || source.height <= 0) {
     place->second = -1;
     return -1;
@@ -57,10 +57,10 @@ int GpuScene::sampler_for(const scene::TextureUse& use) {
 
 void GpuScene::bind_material(int material) const {
   bound_material_ = material;
-  for (const Slot& slot : slots_[static_cast<std::size_t>(material)]) {
+  for (const Slot& slot : slots_[material]) {
     const bool none = slot.texture < 0;
-    (none ? white_ : textures_[static_cast<std::size_t>(slot.texture)]).bind(slot.unit);
-    none ? gl::Sampler::unbind(slot.unit) : samplers_[static_cast<std::size_t>(slot.sampler)].bind(slot.unit);
+    (none ? white_ : textures_[slot.texture]).bind(slot.unit);
+    none ? gl::Sampler::unbind(slot.unit) : samplers_[slot.sampler].bind(slot.unit);
   }
 }
 

@@ -28,7 +28,7 @@ float mesh_area(const scene::Mesh& mesh, const mat4& world) {
 
 const mat4& world_of(const std::vector<mat4>& world, int node) {
   static const mat4 identity(1);
-  return node >= 0 ? world[static_cast<std::size_t>(node)] : identity;
+  return node >= 0 ? world[node] : identity;
 }
 
 }  // namespace
@@ -57,8 +57,7 @@ Lights::Lights(const scene::Scene& scene, float time, const std::vector<mat4>& w
   scene_emitters_ = static_cast<int>(emitters_.size());
   distant_buffer_ = gl::Buffer(sizeof(DistantBlock));
   for (Source& source : sources_) {
-    place(source, source.light >= 0 ? states_[static_cast<std::size_t>(source.light)].world
-                                    : world_of(world, source.node));
+    place(source, source.light >= 0 ? states_[source.light].world : world_of(world, source.node));
   }
   place_environment(bounds);
 }
@@ -103,9 +102,9 @@ void Lights::add_meshes(const scene::Scene& scene, const std::vector<mat4>& worl
   for (const scene::Instance& instance : scene.instances) {
     const int material = scene::instance_material(scene, instance);
     if (material < 0 || instance.mesh < 0) continue;
-    const scene::Material& m = scene.materials[static_cast<std::size_t>(material)];
+    const scene::Material& m = scene.materials[material];
     if (m.unlit || !(max_component(m.emission) > black)) continue;
-    const scene::Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+    const scene::Mesh& mesh = scene.meshes[instance.mesh];
     const mat4& placed = world_of(world, instance.node);
     Source source;
     source.points = spread_points(mesh, placed, samples);
@@ -156,7 +155,7 @@ void Lights::set(const scene::LightingState& state, const std::vector<mat4>& wor
   scales_ = state.group_scales;
   for (Source& source : sources_) {
     if (source.light >= 0) {
-      place(source, states_[static_cast<std::size_t>(source.light)].world);
+      place(source, states_[source.light].world);
     } else if (!source.points.empty()) {
       place(source, world_of(world, source.node));
     }
@@ -173,12 +172,11 @@ void Lights::set(const scene::LightingState& state, const std::vector<mat4>& wor
 
 void Lights::leave_out(const std::vector<std::string>& groups, const std::vector<std::string>& mirrored) {
   for (Source& source : sources_) {
-    const std::string& name = groups_[static_cast<std::size_t>(source.group)];
+    const std::string& name = groups_[source.group];
     const auto is_among = [&](const std::vector<std::string>& names) {
       return std::ranges::find(names, name) != names.end();
     };
-    const bool environment = emitters_[static_cast<std::size_t>(source.emitter)].items.x ==
-                             static_cast<int>(EmitterKind::environment);
+    const bool environment = emitters_[source.emitter].items.x == static_cast<int>(EmitterKind::environment);
     const bool left_out = is_among(groups), mirrors = environment && is_among(mirrored);
     if (left_out == source.left_out && mirrors == source.mirrored) continue;
     source.left_out = left_out;
@@ -189,7 +187,7 @@ void Lights::leave_out(const std::vector<std::string>& groups, const std::vector
 }
 
 void Lights::want_maps(const Source& source) {
-  const ivec4& items = emitters_[static_cast<std::size_t>(source.emitter)].items;
+  const ivec4& items = emitters_[source.emitter].items;
   switch (static_cast<EmitterKind>(items.x)) {
     case EmitterKind::point:
     case EmitterKind::lobe:
@@ -233,15 +231,14 @@ void Lights::place(Source& source, const mat4& world) {
   if (source.placed == world) return;
   source.placed = world;
   emitters_changed_ = true;
-  GpuEmitter& e = emitters_[static_cast<std::size_t>(source.emitter)];
+  GpuEmitter& e = emitters_[source.emitter];
   if (!source.points.empty()) {
     place_samples(source, world);
-    if (source.light >= 0)
-      e.place = vec4(vec3(world[3]), lights_[static_cast<std::size_t>(source.light)].radius);
+    if (source.light >= 0) e.place = vec4(vec3(world[3]), lights_[source.light].radius);
     return;
   }
   if (source.light < 0) return;
-  const scene::Light& light = lights_[static_cast<std::size_t>(source.light)];
+  const scene::Light& light = lights_[source.light];
   const vec3 back(world[2]);
   const float length = glm::length(back);
   const vec3 axis = length > 0 ? back / length : vec3(0, 0, 1);
@@ -270,7 +267,7 @@ void Lights::place(Source& source, const mat4& world) {
 }
 
 void Lights::place_samples(Source& source, const mat4& world) {
-  GpuEmitter& e = emitters_[static_cast<std::size_t>(source.emitter)];
+  GpuEmitter& e = emitters_[source.emitter];
   const mat3 to_normal = glm::transpose(glm::inverse(mat3(world)));
   // Off the surface, or its own triangles would stand in the way
   const float lift = 2 * near_;
@@ -294,14 +291,14 @@ void Lights::place_samples(Source& source, const mat4& world) {
 
 void Lights::set_colors() {
   for (const Source& source : sources_) {
-    GpuEmitter& e = emitters_[static_cast<std::size_t>(source.emitter)];
-    const vec3 scale = source.group >= 0 ? scales_[static_cast<std::size_t>(source.group)] : vec3(1);
+    GpuEmitter& e = emitters_[source.emitter];
+    const vec3 scale = source.group >= 0 ? scales_[source.group] : vec3(1);
     vec3 light = source.radiance;
     float range = 0;
     if (source.light >= 0) {
-      const scene::LightState& state = states_[static_cast<std::size_t>(source.light)];
+      const scene::LightState& state = states_[source.light];
       light = state.color * state.intensity;
-      range = lights_[static_cast<std::size_t>(source.light)].range;
+      range = lights_[source.light].range;
       for (std::size_t k = 0; k < std::min<std::size_t>(state.emission.values.size(), max_corners); ++k)
         e.corners[k] = vec4(state.emission.values[k], 0);
       if (e.items.x == static_cast<int>(EmitterKind::lobe) && state.emission.empty()) light = vec3(0);
@@ -346,7 +343,7 @@ void Lights::upload_emitters(FrameCounters& counters) {
 void Lights::list_lit() {
   lit_.clear();
   std::vector<const Source*> source_of(emitters_.size());  // none of SPHLs
-  for (const Source& source : sources_) source_of[static_cast<std::size_t>(source.emitter)] = &source;
+  for (const Source& source : sources_) source_of[source.emitter] = &source;
   for (std::size_t i = 0; i < emitters_.size(); ++i) {
     const GpuEmitter& e = emitters_[i];
     if (!(max_component(vec3(e.light)) > black)) continue;

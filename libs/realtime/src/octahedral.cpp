@@ -45,7 +45,7 @@ void TileBasis::evaluate(std::span<const vec3> coefficients, std::span<const flo
   SSPHH_CHECK(out.size() == n && band_factors.size() > static_cast<std::size_t>(degree_));
   std::ranges::fill(out, vec4(0));
   for (int l = 0; l <= degree_; ++l) {
-    const float factor = band_factors[static_cast<std::size_t>(l)];
+    const float factor = band_factors[l];
     for (int k = l * l; k < (l + 1) * (l + 1); ++k) {
       const auto i = static_cast<std::size_t>(k);
       if (factor == 0 || i >= coefficients.size()) continue;

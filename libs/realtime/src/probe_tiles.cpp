@@ -25,11 +25,11 @@ sh::IrradianceSh IrradianceTiles::make(sh::RadianceSh light, std::span<vec4> til
 
 RadianceTiles::RadianceTiles(int degree, int levels) : basis_(radiance_tile, degree) {
   for (int level = 0; level < levels; ++level)
-    scales_.push_back(sh::glossy_band_scales(radiance_roughness[static_cast<std::size_t>(level)]));
+    scales_.push_back(sh::glossy_band_scales(radiance_roughness[level]));
 }
 
 void RadianceTiles::make(const sh::RadianceSh& light, int level, std::span<vec4> tile) const {
-  basis_.evaluate(light.values, scales_[static_cast<std::size_t>(level)], tile);
+  basis_.evaluate(light.values, scales_[level], tile);
 }
 
 }  // namespace ssphh::realtime

@@ -27,8 +27,8 @@ class Probes {
          const scene::Bounds& bounds, bool glossy, FrameCounters& counters);
 
   int count() const { return static_cast<int>(places_.size()); }
-  const vec3& position(int probe) const { return places_[static_cast<std::size_t>(probe)]; }
-  float radius(int probe) const { return radii_[static_cast<std::size_t>(probe)]; }
+  const vec3& position(int probe) const { return places_[probe]; }
+  float radius(int probe) const { return radii_[probe]; }
   float spacing() const { return spacing_; }
   const probes::CandidateGrid& grid() const { return grid_; }
   const MapAtlas& maps() const { return maps_; }

@@ -19,7 +19,7 @@ constexpr FaceAxes axes[6] = {{{0, 0, -1}, {0, 1, 0}, {1, 0, 0}}, {{0, 0, 1}, {0
 }  // namespace
 
 MapView cube_view(const vec3& origin, int face, float near_plane, float reach) {
-  const FaceAxes& a = axes[static_cast<std::size_t>(face)];
+  const FaceAxes& a = axes[face];
   return {origin, a.right, a.up, a.forward, near_plane, reach};
 }
 
@@ -65,7 +65,7 @@ void MapAtlas::set_view(int tile, const MapView& view, bool used) {
 
 void MapAtlas::want(int first, int count, bool wanted) {
   for (int tile = first; tile < first + count; ++tile) {
-    auto& state = fresh_[static_cast<std::size_t>(tile)];
+    auto& state = fresh_[tile];
     if (state == unused || wanted == (state != unwanted)) continue;
     stale_ -= state == stale;
     stale_ += wanted;
@@ -119,7 +119,7 @@ void MapAtlas::draw_tile(int tile, const GpuScene& scene, gl::Program& opaque, g
   gl::clear_depth(rect, 0);
 
   // One texel at each edge lies beyond what the map stands for, so that filters find it there
-  const MapView& view = views_[static_cast<std::size_t>(tile)];
+  const MapView& view = views_[tile];
   const float shrink = static_cast<float>(size_ - 2) / static_cast<float>(size_);
   bool filters = false;
   const auto use = [&](gl::Program& program) {

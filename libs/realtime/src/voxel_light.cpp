@@ -107,8 +107,8 @@ void VoxelLight::upload_all(const methods::VoxelCones& data, FrameCounters& coun
 }
 
 void VoxelLight::upload_level(const Pyramid& voxels, int level, float scale, FrameCounters& counters) {
-  const ivec3 cells = layout_.cells[static_cast<std::size_t>(level)];
-  const ivec3 first = layout_.first[static_cast<std::size_t>(level)];
+  const ivec3 cells = layout_.cells[level];
+  const ivec3 first = layout_.first[level];
   const auto row = static_cast<std::size_t>(cells.x), layer = row * static_cast<std::size_t>(cells.y);
   const std::size_t side_texels = layer * brick;
   for (int z = 0; z < cells.z / brick; ++z) {

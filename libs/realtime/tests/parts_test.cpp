@@ -29,8 +29,7 @@ vec3 sample_tile(const std::vector<vec4>& tile, int size, const vec3& d) {
   const vec2 at = (0.5f + 0.5f * p) * static_cast<float>(size) + 0.5f;
   const vec2 low = glm::floor(at), f = at - low;
   const auto texel = [&](int x, int y) {
-    return vec3(tile[static_cast<std::size_t>((static_cast<int>(low.y) + y) * (size + 2) +
-                                              static_cast<int>(low.x) + x)]);
+    return vec3(tile[(static_cast<int>(low.y) + y) * (size + 2) + static_cast<int>(low.x) + x]);
   };
   return glm::mix(glm::mix(texel(0, 0), texel(1, 0), f.x), glm::mix(texel(0, 1), texel(1, 1), f.x), f.y);
 }
@@ -45,7 +44,7 @@ TEST(Octahedral, TileInterpolatesItsFunctionAlsoAcrossEdges) {
   std::normal_distribution<float> normal;
   for (int l = 1; l <= degree; ++l) {
     std::vector<vec3> c(25, vec3(0));
-    for (int k = l * l; k < (l + 1) * (l + 1); ++k) c[static_cast<std::size_t>(k)] = vec3(normal(random));
+    for (int k = l * l; k < (l + 1) * (l + 1); ++k) c[k] = vec3(normal(random));
     c[0] = vec3(30);  // keeps it positive, where the tile does not clamp
     const TileBasis basis(size, degree);
     std::vector<vec4> tile(basis.texels());
@@ -84,9 +83,7 @@ struct ColouredTile {
     const std::array<float, 11> ones{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
     basis.evaluate(c, ones, texels);
   }
-  vec3 at(int column, int row) const {
-    return vec3(texels[static_cast<std::size_t>(row * (size + 2) + column)]);
-  }
+  vec3 at(int column, int row) const { return vec3(texels[row * (size + 2) + column]); }
 };
 
 TEST(Octahedral, ABorderIsTheSameEdgeMirroredAboutItsMiddle) {

@@ -21,7 +21,7 @@ void for_texels(int size, std::span<const vec4> tile, const Visit& visit) {
   for (int row = 0; row < size + 2; ++row) {
     for (int column = 0; column < size + 2; ++column) {
       const vec2 place = (2.0f * vec2(column, row) - 1.0f) / static_cast<float>(size) - 1.0f;
-      visit(octahedral_direction(place), vec3(tile[static_cast<std::size_t>(row * (size + 2) + column)]));
+      visit(octahedral_direction(place), vec3(tile[row * (size + 2) + column]));
     }
   }
 }
@@ -90,7 +90,7 @@ TEST(ProbeTiles, OfRadianceAreItsBandsBlurredByEachRoughness) {
   float narrower = 2;
   for (int level = 0; level < levels; ++level) {
     tiles.make(ramp(3, a, b), level, tile);
-    const float share = sh::glossy_band_scale(radiance_roughness[static_cast<std::size_t>(level)], 1);
+    const float share = sh::glossy_band_scale(radiance_roughness[level], 1);
     EXPECT_LT(share, narrower);
     narrower = share;
     for_texels(radiance_tile, tile, [&](const vec3& d, const vec3& texel) {

@@ -79,8 +79,7 @@ std::string report_csv(const Report& report) {
   out += "\r\n";
   for (const ReportCell& cell : report.cells) {
     const Plan& plan = report.plan;
-    const PlanMethod& method =
-        cell.method < 0 ? plan.reference : plan.methods[static_cast<std::size_t>(cell.method)];
+    const PlanMethod& method = cell.method < 0 ? plan.reference : plan.methods[cell.method];
     out += fmt::format("{},{},{},{},{}", csv_field(plan.scenes[cell.scene].name), csv_field(method.name),
                        csv_field(cell.label), cell.failure.empty() ? 0 : 1, method.repetitions);
     for (const std::string& name : parameters) {

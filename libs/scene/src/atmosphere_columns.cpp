@@ -70,7 +70,7 @@ Columns columns_above(double height, double cos_zenith) {
                y = std::clamp(share, 0.0, 1.0) * (angles - 1);
   const int i = std::min(static_cast<int>(x), heights - 2), j = std::min(static_cast<int>(y), angles - 2);
   const auto s = static_cast<float>(x - i), t = static_cast<float>(y - j);
-  const Columns* const c = &table[static_cast<std::size_t>(i * angles + j)];
+  const Columns* const c = &table[i * angles + j];
   const auto mixed = [&](float Columns::*of) {
     return (1 - s) * ((1 - t) * c[0].*of + t * c[1].*of) +
            s * ((1 - t) * c[angles].*of + t * c[angles + 1].*of);

@@ -26,7 +26,7 @@ Hash128 digest(const Texture& t) {
 void add(Hasher& h, const TextureUse& t, const std::vector<Hash128>& textures) {
   h.value(t.texture >= 0);
   if (t.texture < 0) return;
-  add(h, textures[static_cast<std::size_t>(t.texture)]);
+  add(h, textures[t.texture]);
   add(add(h.value(t.uv_set), t.offset), t.scale);
   h.value(t.rotation).value(t.wrap_u).value(t.wrap_v).value(t.nearest);
 }
@@ -98,14 +98,13 @@ void add(Hasher& h, const AnimationChannel& c) {
 std::vector<Hash128> node_digests(const Scene& scene) {
   std::vector<std::vector<const AnimationChannel*>> channels(scene.nodes.size());
   for (const Animation& animation : scene.animations) {
-    for (const AnimationChannel& c : animation.channels)
-      channels[static_cast<std::size_t>(c.node)].push_back(&c);
+    for (const AnimationChannel& c : animation.channels) channels[c.node].push_back(&c);
   }
   std::vector<Hash128> digests;  // parents stand before their children
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     Node node = scene.nodes[i];
     Hasher h;
-    add(h, node.parent < 0 ? Hash128{} : digests[static_cast<std::size_t>(node.parent)]);
+    add(h, node.parent < 0 ? Hash128{} : digests[node.parent]);
     node.parent = -1;
     add(h, node);
     for (const AnimationChannel* c : channels[i])

@@ -38,7 +38,7 @@ LightingState lighting_at(const Scene& scene, float time) {
   LightingState state;
   state.time = time;
   for (const Light& light : scene.lights) {
-    const mat4 placed = light.node >= 0 ? world[static_cast<std::size_t>(light.node)] : mat4(1);
+    const mat4 placed = light.node >= 0 ? world[light.node] : mat4(1);
     state.lights.push_back({placed, light.color, light.intensity, emission_at(light.emission, time)});
   }
   state.group_scales.assign(light_groups(scene).size(), vec3(1));

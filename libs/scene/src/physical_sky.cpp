@@ -56,7 +56,7 @@ vec3 PhysicalSky::radiance(float cos_view, float cos_between) const {
   const int i = std::min(static_cast<int>(x), elevation_nodes - 2),
             j = std::min(static_cast<int>(y), azimuth_nodes - 2);
   const float s = x - static_cast<float>(i), t = y - static_cast<float>(j);
-  const Colors* const at = &table_[static_cast<std::size_t>(i * azimuth_nodes + j)];
+  const Colors* const at = &table_[i * azimuth_nodes + j];
   const auto mixed = [&](vec3 Colors::*of) {
     return (1 - s) * ((1 - t) * at[0].*of + t * at[1].*of) +
            s * ((1 - t) * at[azimuth_nodes].*of + t * at[azimuth_nodes + 1].*of);

@@ -79,7 +79,7 @@ std::vector<mat4> world_matrices(const Scene& scene, float time) {
   for (const Node& node : scene.nodes) locals.push_back(node.local);
   for (const Animation& animation : scene.animations) {
     for (const AnimationChannel& channel : animation.channels) {
-      apply(channel, time, locals[static_cast<std::size_t>(channel.node)]);
+      apply(channel, time, locals[channel.node]);
     }
   }
   // Multiply down the tree: parents stand before their children.
@@ -88,7 +88,7 @@ std::vector<mat4> world_matrices(const Scene& scene, float time) {
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     const Node& node = scene.nodes[i];
     const mat4 local = node.matrix ? *node.matrix : locals[i].matrix();
-    world.push_back(node.parent < 0 ? local : world[static_cast<std::size_t>(node.parent)] * local);
+    world.push_back(node.parent < 0 ? local : world[node.parent] * local);
   }
   return world;
 }
@@ -96,7 +96,7 @@ std::vector<mat4> world_matrices(const Scene& scene, float time) {
 mat4 world_matrix(const Scene& scene, int index, float time) {
   require(index >= 0 && static_cast<std::size_t>(index) < scene.nodes.size(), "node",
           "there is none of that index");
-  const Node& node = scene.nodes[static_cast<std::size_t>(index)];
+  const Node& node = scene.nodes[index];
   require(node.parent < index, "node", "its parent does not stand before it");
   mat4 local(1);
   if (node.matrix) {
@@ -128,11 +128,11 @@ void mark_movable(Scene& scene) {
   for (Node& node : scene.nodes) node.movable = false;
   for (const Animation& animation : scene.animations) {
     for (const AnimationChannel& channel : animation.channels) {
-      scene.nodes[static_cast<std::size_t>(channel.node)].movable = true;
+      scene.nodes[channel.node].movable = true;
     }
   }
   for (Node& node : scene.nodes) {
-    if (node.parent >= 0 && scene.nodes[static_cast<std::size_t>(node.parent)].movable) node.movable = true;
+    if (node.parent >= 0 && scene.nodes[node.parent].movable) node.movable = true;
   }
 }
 

@@ -20,7 +20,7 @@ std::vector<TubeFrame> tube_frames(const std::function<vec3(float)>& curve, bool
   };
   std::vector<TubeFrame> frames(static_cast<std::size_t>(segments) + 1);
   for (int i = 0; i <= segments; ++i) {
-    TubeFrame& f = frames[static_cast<std::size_t>(i)];
+    TubeFrame& f = frames[i];
     f.position = at(i);
     const vec3 before = closed || i > 0 ? at(i - 1) : f.position;
     const vec3 after = closed || i < segments ? at(i + 1) : f.position;

@@ -14,13 +14,13 @@ constexpr std::size_t max_light_groups = 256;
 
 const mat4& matrix_of(const std::vector<mat4>& world, int node) {
   static const mat4 identity(1);
-  return node < 0 ? identity : world[static_cast<std::size_t>(node)];
+  return node < 0 ? identity : world[node];
 }
 
 const Material& shading_material(const Scene& scene, const Instance& instance) {
   static const Material plain;
   const int index = instance_material(scene, instance);
-  return index < 0 ? plain : scene.materials[static_cast<std::size_t>(index)];
+  return index < 0 ? plain : scene.materials[index];
 }
 
 /// Camera in front (+z) of the scene, far enough to see all of it.
@@ -41,7 +41,7 @@ Bounds world_bounds(const Scene& scene, const std::vector<mat4>& world) {
   Bounds bounds;
   for (const Instance& instance : scene.instances) {
     const mat4& m = matrix_of(world, instance.node);
-    for (const vec3& p : scene.meshes[static_cast<std::size_t>(instance.mesh)].positions) {
+    for (const vec3& p : scene.meshes[instance.mesh].positions) {
       bounds.add(vec3(m * vec4(p, 1)));
     }
   }
@@ -51,14 +51,13 @@ Bounds world_bounds(const Scene& scene, const std::vector<mat4>& world) {
 std::uint64_t triangle_count(const Scene& scene) {
   std::uint64_t count = 0;
   for (const Instance& instance : scene.instances) {
-    count += scene.meshes[static_cast<std::size_t>(instance.mesh)].triangles.size();
+    count += scene.meshes[instance.mesh].triangles.size();
   }
   return count;
 }
 
 int instance_material(const Scene& scene, const Instance& instance) {
-  return instance.material >= 0 ? instance.material
-                                : scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
+  return instance.material >= 0 ? instance.material : scene.meshes[instance.mesh].material;
 }
 
 std::string light_group(const Light& light) {
@@ -74,7 +73,7 @@ std::string light_group(const Environment& environment) {
 std::string light_group(const Scene& scene, const Instance& instance) {
   if (!instance.light_group.empty()) return instance.light_group;
   if (instance.node < 0) return "emitter";
-  const std::string& name = scene.nodes[static_cast<std::size_t>(instance.node)].name;
+  const std::string& name = scene.nodes[instance.node].name;
   return name.empty() ? "emitter" : name;
 }
 

@@ -28,7 +28,7 @@ class Contents {
   void add_instance(Hasher& h, const Instance& instance) const {
     const int material = instance_material(scene_, instance);
     const auto m = static_cast<std::size_t>(material);
-    add(h, meshes_[static_cast<std::size_t>(instance.mesh)]);
+    add(h, meshes_[instance.mesh]);
     add(h, material < 0 ? plain_ : materials_[m]);
     h.text(material >= 0 && scene_.materials[m].emissive() ? light_group(scene_, instance) : "");
   }
@@ -63,9 +63,7 @@ Hash128 scene_hash(const Scene& scene) {
 Hash128 light_hash(const Scene& scene) {
   const Contents contents(scene);
   const std::vector<Hash128> nodes = node_digests(scene);
-  const auto stands = [&](Hasher& h, int node) {
-    add(h, node < 0 ? Hash128{} : nodes[static_cast<std::size_t>(node)]);
-  };
+  const auto stands = [&](Hasher& h, int node) { add(h, node < 0 ? Hash128{} : nodes[node]); };
   Hasher h;
   h.text("light").value(static_cast<std::uint64_t>(scene.instances.size()));
   for (const Instance& instance : scene.instances) {

@@ -38,9 +38,9 @@ Hash128 place_digest(const Hash128& node, const mat4& world) {
 }
 
 const std::string& name_of_instance(const Scene& scene, const Instance& instance) {
-  const std::string& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)].name;
+  const std::string& mesh = scene.meshes[instance.mesh].name;
   if (instance.node < 0) return mesh;
-  const std::string& node = scene.nodes[static_cast<std::size_t>(instance.node)].name;
+  const std::string& node = scene.nodes[instance.node].name;
   return node.empty() ? mesh : node;
 }
 
@@ -67,12 +67,8 @@ std::vector<SceneItem> scene_items(const Scene& scene, float time) {
   for (const Instance& instance : scene.instances) {
     const int given = instance_material(scene, instance);
     const std::size_t material = given < 0 ? scene.materials.size() : static_cast<std::size_t>(given);
-    SceneItem item{ItemKind::object,
-                   name_of_instance(scene, instance),
-                   meshes[static_cast<std::size_t>(instance.mesh)],
-                   place(instance.node),
-                   materials.surface[material],
-                   {}};
+    SceneItem item{ItemKind::object,     name_of_instance(scene, instance), meshes[instance.mesh],
+                   place(instance.node), materials.surface[material],       {}};
     if (given >= 0 && scene.materials[material].emissive()) {
       Hasher h;
       add(h.text(light_group(scene, instance)), materials.emission[material]);

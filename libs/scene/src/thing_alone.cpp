@@ -18,7 +18,7 @@ std::vector<bool> below(const Scene& scene, int node) {
   std::vector<bool> is(scene.nodes.size(), false);
   for (std::size_t i = 0; i < is.size(); ++i) {
     const int parent = scene.nodes[i].parent;
-    is[i] = static_cast<int>(i) == node || (parent >= 0 && is[static_cast<std::size_t>(parent)]);
+    is[i] = static_cast<int>(i) == node || (parent >= 0 && is[parent]);
   }
   return is;
 }
@@ -27,8 +27,7 @@ std::vector<bool> below(const Scene& scene, int node) {
 std::vector<std::string> names_of_things(const Scene& scene) {
   std::vector<bool> carries(scene.nodes.size(), false);
   const auto mark = [&](int node) {
-    for (; node >= 0; node = scene.nodes[static_cast<std::size_t>(node)].parent)
-      carries[static_cast<std::size_t>(node)] = true;
+    for (; node >= 0; node = scene.nodes[node].parent) carries[node] = true;
   };
   for (const Instance& instance : scene.instances) mark(instance.node);
   for (const Light& light : scene.lights) mark(light.node);
@@ -58,7 +57,7 @@ int find_node(const Scene& scene, const std::string& name) {
 Scene thing_alone(Scene scene, int node) {
   check_indices(scene);
   const std::vector<bool> belongs = below(scene, node);
-  const auto is_other = [&](int at) { return at < 0 || !belongs[static_cast<std::size_t>(at)]; };
+  const auto is_other = [&](int at) { return at < 0 || !belongs[at]; };
   std::erase_if(scene.instances, [&](const Instance& instance) { return is_other(instance.node); });
   std::erase_if(scene.lights, [&](const Light& light) {
     return is_other(light.node) || light.type == LightType::directional;

@@ -204,7 +204,7 @@ std::vector<std::string> validate(Scene& scene) {
     const std::vector<AnimationChannel>& channels = scene.animations[i].channels;
     for (std::size_t c = 0; c < channels.size(); ++c) {
       validate_channel(channels[c], fmt::format("{} channel {}", animation, c));
-      Node& node = scene.nodes[static_cast<std::size_t>(channels[c].node)];
+      Node& node = scene.nodes[channels[c].node];
       if (!node.matrix) continue;
       node.local = decompose(*node.matrix);
       check_finite(node.local.scale, label("node", static_cast<std::size_t>(channels[c].node), node.name),

@@ -28,7 +28,7 @@ Scene with_lighting(Scene scene, const LightingState& state) {
   const std::vector<std::string> groups = light_groups(scene);
   check_lighting(state, {scene.lights.size(), groups.size(), std::numeric_limits<std::size_t>::max()});
   const auto scale_of = [&](const std::string& group) {
-    return state.group_scales[static_cast<std::size_t>(light_group_index(groups, group))];
+    return state.group_scales[light_group_index(groups, group)];
   };
   const std::vector<mat4> world = world_matrices(scene, state.time);
 
@@ -37,7 +37,7 @@ Scene with_lighting(Scene scene, const LightingState& state) {
     light.color = state.lights[i].color * scale_of(light_group(light));
     light.intensity = state.lights[i].intensity;
     if (light.type == LightType::sphl) hold_emission(light, state.lights[i].emission, state.time);
-    if (state.lights[i].world == world[static_cast<std::size_t>(light.node)]) continue;
+    if (state.lights[i].world == world[light.node]) continue;
     Node node;
     node.name = light.name;
     node.matrix = state.lights[i].world;
@@ -46,7 +46,7 @@ Scene with_lighting(Scene scene, const LightingState& state) {
   }
   for (Instance& instance : scene.instances) {
     const int material = instance_material(scene, instance);
-    if (material < 0 || !scene.materials[static_cast<std::size_t>(material)].emissive()) continue;
+    if (material < 0 || !scene.materials[material].emissive()) continue;
     const vec3 factor = scale_of(light_group(scene, instance));
     if (factor != vec3(1)) scale_emission(scene, instance, factor);
   }

@@ -40,7 +40,7 @@ TEST(TwoRooms, LampCamerasAndSphlsStandInside) {
     expect_inside(vec3(camera_pose(scene, camera.name).world[3]), camera.name);
   }
   ASSERT_EQ(scene.lights.size(), 1u);
-  const vec3 lamp(world_matrices(scene)[static_cast<std::size_t>(scene.lights[0].node)][3]);
+  const vec3 lamp(world_matrices(scene)[scene.lights[0].node][3]);
   expect_inside(lamp, "lamp");
   EXPECT_LT(lamp.x, -0.1f);
 }
@@ -178,11 +178,10 @@ TEST_P(Gallery, BodiesAreClosedSoThatSphlsAreOutsideOfAll) {
   int bodies = 0;
   for (const Instance& instance : scene.instances) {
     const auto node = static_cast<std::size_t>(instance.node);
-    const auto body = triangles_of(scene.meshes[static_cast<std::size_t>(instance.mesh)], world[node]);
+    const auto body = triangles_of(scene.meshes[instance.mesh], world[node]);
     if (body.size() < 3) continue;  // walls and strips are single quads
     ++bodies;
-    EXPECT_EQ(open_edges(triangles_of(scene.meshes[static_cast<std::size_t>(instance.mesh)])), 0)
-        << scene.nodes[node].name;
+    EXPECT_EQ(open_edges(triangles_of(scene.meshes[instance.mesh])), 0) << scene.nodes[node].name;
     for (const ProbePlace& place : sphl_places(scene)) {
       EXPECT_NEAR(winding_number(place.position, body), 0, 1e-4)
           << place.name << " in " << scene.nodes[node].name;
@@ -201,14 +200,14 @@ std::vector<Lamp> lamps_of(const Scene& scene) {
   const std::vector<mat4> world = world_matrices(scene);
   std::vector<Lamp> lamps;
   for (const Light& light : scene.lights) {
-    const mat4& m = world[static_cast<std::size_t>(light.node)];
+    const mat4& m = world[light.node];
     const float cos_cone = light.type == LightType::spot ? std::cos(light.outer_cone) : -1.0f;
     lamps.push_back({vec3(m[3]), -vec3(m[2]), cos_cone, light.type == LightType::sphere});
   }
   for (const Instance& instance : scene.instances) {
     if (instance.light_group.empty()) continue;
     // A quad: five points along its middle line.
-    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+    const Mesh& mesh = scene.meshes[instance.mesh];
     const vec3 a = mesh.positions[0], b = mesh.positions[1], d = mesh.positions[3];
     for (int i = 0; i < 5; ++i) {
       const float s = 0.1f + 0.2f * static_cast<float>(i);

@@ -82,11 +82,11 @@ TEST(Court, StandsAroundAFloorUnderAnOpenSky) {
   for (const char* body : {"block", "knot", "ball"}) {
     const std::vector<Triangle> triangles = world_triangles(scene, 0, body);
     const Bounds b = bounds_of(triangles);
-    EXPECT_EQ(open_edges(triangles_of(scene.meshes[static_cast<std::size_t>(
-                  std::find_if(scene.meshes.begin(), scene.meshes.end(),
-                               [&](const Mesh& m) { return m.name == body; }) -
-                  scene.meshes.begin())])),
-              0)
+    EXPECT_EQ(
+        open_edges(triangles_of(scene.meshes[std::find_if(scene.meshes.begin(), scene.meshes.end(),
+                                                          [&](const Mesh& m) { return m.name == body; }) -
+                                             scene.meshes.begin()])),
+        0)
         << body;
     EXPECT_GE(b.min.y, -1e-6f) << body;
     EXPECT_LT(b.min.y, 0.1f) << body << " does not hover";

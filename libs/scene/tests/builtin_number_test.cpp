@@ -23,9 +23,8 @@ std::string numbered(const std::string& name, int number) {
 }
 
 std::size_t count(const Scene& scene, const std::string& name) {
-  return static_cast<std::size_t>(std::ranges::count_if(scene.instances, [&](const Instance& instance) {
-    return scene.nodes[static_cast<std::size_t>(instance.node)].name == name;
-  }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      scene.instances, [&](const Instance& instance) { return scene.nodes[instance.node].name == name; }));
 }
 
 float extent(const Scene& scene) {
@@ -57,10 +56,10 @@ TEST(BuiltinNumber, ATownHasSoManyOfTheHouseEachWithTheSameShape) {
     std::set<std::pair<int, int>> places;
     const std::vector<mat4> world = world_matrices(town);
     for (const Instance& instance : town.instances) {
-      if (town.nodes[static_cast<std::size_t>(instance.node)].name != "roof") continue;
+      if (town.nodes[instance.node].name != "roof") continue;
       Bounds bounds;
-      for (const vec3& p : town.meshes[static_cast<std::size_t>(instance.mesh)].positions)
-        bounds.add(vec3(world[static_cast<std::size_t>(instance.node)] * vec4(p, 1)));
+      for (const vec3& p : town.meshes[instance.mesh].positions)
+        bounds.add(vec3(world[instance.node] * vec4(p, 1)));
       const vec3 middle = bounds.center(), size = bounds.max - bounds.min;
       places.insert({static_cast<int>(std::lround(middle.x)), static_cast<int>(std::lround(middle.z))});
       EXPECT_NEAR(std::max(size.x, size.z), 12.8f, 1e-3f);

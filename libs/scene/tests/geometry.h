@@ -19,7 +19,7 @@ inline std::vector<Triangle> triangles_of(const Mesh& mesh, const mat4& m = mat4
   for (const uvec3& t : mesh.triangles) {
     Triangle triangle;
     for (int c = 0; c < 3; ++c) {
-      triangle[static_cast<std::size_t>(c)] = vec3(m * vec4(mesh.positions[t[c]], 1));
+      triangle[c] = vec3(m * vec4(mesh.positions[t[c]], 1));
     }
     result.push_back(triangle);
   }
@@ -34,7 +34,7 @@ inline std::vector<Triangle> world_triangles(const Scene& scene, float time = 0,
   for (const Instance& instance : scene.instances) {
     const auto node = static_cast<std::size_t>(instance.node);
     if (scene.nodes[node].name.compare(0, prefix.size(), prefix) != 0) continue;
-    const auto part = triangles_of(scene.meshes[static_cast<std::size_t>(instance.mesh)], world[node]);
+    const auto part = triangles_of(scene.meshes[instance.mesh], world[node]);
     result.insert(result.end(), part.begin(), part.end());
   }
   return result;

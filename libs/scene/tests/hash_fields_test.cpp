@@ -46,7 +46,7 @@ Scene scene_with_all_fields() {
   s.cameras.resize(2);
   s.cameras[1].orthographic = true, s.cameras[1].yheight = 3;
   s.lights.resize(5);
-  for (int i = 0; i < 5; ++i) s.lights[static_cast<std::size_t>(i)].type = static_cast<LightType>(i);
+  for (int i = 0; i < 5; ++i) s.lights[i].type = static_cast<LightType>(i);
   for (Light& l : s.lights) {
     l.node = 0, l.radius = 0.5f;
     l.emission = {.frames = {sh::IntensitySh(1), sh::IntensitySh(1)}, .rate = 2};

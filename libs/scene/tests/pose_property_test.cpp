@@ -20,8 +20,8 @@ dvec3 turned(const glm::dquat& q, const dvec3& v) {
 
 /// The point in world space, one node after the other.
 dvec3 carried(const Scene& scene, int node, dvec3 p) {
-  for (; node >= 0; node = scene.nodes[static_cast<std::size_t>(node)].parent) {
-    const Node& n = scene.nodes[static_cast<std::size_t>(node)];
+  for (; node >= 0; node = scene.nodes[node].parent) {
+    const Node& n = scene.nodes[node];
     if (n.matrix) {
       dvec3 sum((*n.matrix)[3]);
       for (int c = 0; c < 3; ++c) sum += p[c] * dvec3((*n.matrix)[c]);
@@ -51,7 +51,7 @@ TEST(PoseProperty, MatricesMovePointsAsTheNodesDoOneByOne) {
     double worst = 0;
     for (int n = 0; n < static_cast<int>(scene.nodes.size()); ++n) {
       const dvec3 expected = carried(scene, n, dvec3(p));
-      const vec3 found(world[static_cast<std::size_t>(n)] * vec4(p, 1));
+      const vec3 found(world[n] * vec4(p, 1));
       // Up to a dozen nested transforms, each of a handful of roundings; what cancels was at most 1e3 or so.
       worst = std::max(worst, distance(found, expected) / (10 + glm::length(expected)));
     }

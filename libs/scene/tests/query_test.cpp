@@ -91,7 +91,7 @@ TEST(Cameras, AreFoundByNameAndTheFirstIsTheDefault) {
 
 TEST(Cameras, PoseHasNoScaleAndLooksAlongMinusZ) {
   Scene scene = make_builtin("two-rooms");
-  scene.nodes[static_cast<std::size_t>(scene.cameras[0].node)].local.scale = {2, 0.3f, 4};
+  scene.nodes[scene.cameras[0].node].local.scale = {2, 0.3f, 4};
   const mat4 pose = camera_pose(scene, "").world;
   EXPECT_NEAR(glm::determinant(mat3(pose)), 1, 1e-5f);  // float rounding
   const vec3 expected = glm::normalize(vec3(0, 1.2f, -0.1f) - vec3(-3.8f, 1.6f, 0.9f));

@@ -21,7 +21,7 @@ TEST(WithLighting, MovesColoursAndDimsOneLamp) {
   state.group_scales[0] = vec3(2);
   const Scene lit = with_lighting(scene, state);
   const Light& lamp = lit.lights[0];
-  EXPECT_EQ(vec3(world_matrices(lit, 0.7f)[static_cast<std::size_t>(lamp.node)][3]), vec3(1, 2, 3));
+  EXPECT_EQ(vec3(world_matrices(lit, 0.7f)[lamp.node][3]), vec3(1, 2, 3));
   EXPECT_EQ(lamp.color, vec3(2, 1, 0.5f));
   EXPECT_EQ(lamp.intensity, 8);
   EXPECT_EQ(light_groups(lit), light_groups(scene));
@@ -58,7 +58,7 @@ TEST(WithLighting, ScalesTheEmissionOfItsGroupAlone) {
   state.group_scales = {vec3(1), vec3(0.5f), vec3(4)};
   const Scene lit = with_lighting(scene, state);
   const auto emission = [&](std::size_t i) {
-    return lit.materials[static_cast<std::size_t>(instance_material(lit, lit.instances[i]))].emission;
+    return lit.materials[instance_material(lit, lit.instances[i])].emission;
   };
   EXPECT_EQ(emission(0), vec3(3));
   EXPECT_EQ(emission(1), vec3(1.5f));

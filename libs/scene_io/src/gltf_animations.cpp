@@ -99,20 +99,20 @@ std::optional<AnimationChannel> import_channel(GltfImport& import, const json::C
     document.ignored.add("animation without a node");
     return std::nullopt;
   }
-  out.node = import.node_of_node[static_cast<std::size_t>(*file_node)];
+  out.node = import.node_of_node[*file_node];
   if (out.node < 0) {
     document.ignored.add("animation of a node outside the scene");
     return std::nullopt;
   }
   if (targets > 0) {
-    import_weights(import, samplers[static_cast<std::size_t>(sampler)], out.node, targets);
+    import_weights(import, samplers[sampler], out.node, targets);
     return std::nullopt;
   }
-  if (import.scene.nodes[static_cast<std::size_t>(out.node)].matrix) {
+  if (import.scene.nodes[out.node].matrix) {
     document.ignored.add("animation of a node that has a matrix");
     return std::nullopt;
   }
-  import_keys(document, samplers[static_cast<std::size_t>(sampler)], out);
+  import_keys(document, samplers[sampler], out);
   return out;
 }
 
@@ -126,14 +126,13 @@ void import_animations(GltfImport& import) {
     for (const json::Cursor& place : json::elements(animation["channels"])) {
       auto channel = import_channel(import, animation, place);
       if (!channel) continue;
-      import.scene.nodes[static_cast<std::size_t>(channel->node)].movable = true;
+      import.scene.nodes[channel->node].movable = true;
       out.channels.push_back(*std::move(channel));
     }
     if (!out.channels.empty()) import.scene.animations.push_back(std::move(out));
   }
   for (auto& node : import.scene.nodes) {  // parents stand before children
-    if (node.parent >= 0 && import.scene.nodes[static_cast<std::size_t>(node.parent)].movable)
-      node.movable = true;
+    if (node.parent >= 0 && import.scene.nodes[node.parent].movable) node.movable = true;
   }
 }
 

@@ -51,11 +51,11 @@ std::optional<std::size_t> bend(scene::Mesh& mesh, const std::vector<MeshShape::
       for (int c = 0; c < 4; ++c) {
         const float index = indices[v][c];
         if (!(index >= 0 && index < static_cast<float>(joints.size()))) return v;
-        sum += weights[v][c] * joints[static_cast<std::size_t>(index)];
+        sum += weights[v][c] * joints[index];
         total += weights[v][c];
       }
     }
-    const mat4 matrix = total > 0 ? sum / total : joints[static_cast<std::size_t>(influences[0].joints[v].x)];
+    const mat4 matrix = total > 0 ? sum / total : joints[influences[0].joints[v].x];
     mesh.positions[v] = vec3(matrix * vec4(mesh.positions[v], 1));
     if (!mesh.normals.empty()) mesh.normals[v] = cofactors(mat3(matrix)) * mesh.normals[v];
     if (!mesh.tangents.empty()) {

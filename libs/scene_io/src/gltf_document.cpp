@@ -141,7 +141,7 @@ void GltfDocument::check_version_and_extensions() const {
 }
 
 json::Cursor GltfDocument::item(const char* collection, int index) const {
-  return root()[collection][static_cast<std::size_t>(index)];
+  return root()[collection][index];
 }
 
 std::vector<json::Cursor> GltfDocument::items(const char* collection) const {

@@ -21,7 +21,7 @@ using scene::Wrap;
 int export_image(GltfExport& out, int texture) {
   const auto known = out.images_by_texture.find(texture);
   if (known != out.images_by_texture.end()) return known->second;
-  const scene::Texture& t = out.scene.textures[static_cast<std::size_t>(texture)];
+  const scene::Texture& t = out.scene.textures[texture];
   const auto png = image::encode_png(image::Rgba8{t.width, t.height, t.rgba});
   json::Value image;
   if (!t.name.empty()) image["name"] = t.name;

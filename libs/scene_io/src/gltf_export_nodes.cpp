@@ -64,7 +64,7 @@ class MeshExport {
   std::optional<int> index(const std::vector<const Instance*>& instances) {
     std::vector<std::pair<int, int>> key;
     for (const Instance* instance : instances) {
-      if (out_.scene.meshes[static_cast<std::size_t>(instance->mesh)].triangles.empty()) continue;
+      if (out_.scene.meshes[instance->mesh].triangles.empty()) continue;
       const int material = scene::instance_material(out_.scene, *instance);
       key.emplace_back(instance->mesh, export_material_index(out_, material));
     }
@@ -72,7 +72,7 @@ class MeshExport {
     const auto known = meshes_.find(key);
     if (known != meshes_.end()) return known->second;
     json::Value mesh, primitives = json::Value::array();
-    const std::string& name = out_.scene.meshes[static_cast<std::size_t>(key.front().first)].name;
+    const std::string& name = out_.scene.meshes[key.front().first].name;
     if (!name.empty()) mesh["name"] = name;
     for (const auto& [scene_mesh, material] : key) {
       json::Value part = primitive(scene_mesh);
@@ -87,7 +87,7 @@ class MeshExport {
   json::Value primitive(int mesh) {
     const auto known = primitives_.find(mesh);
     if (known != primitives_.end()) return known->second;
-    return primitives_[mesh] = export_primitive(out_, out_.scene.meshes[static_cast<std::size_t>(mesh)]);
+    return primitives_[mesh] = export_primitive(out_, out_.scene.meshes[mesh]);
   }
 
   GltfExport& out_;
@@ -170,7 +170,7 @@ json::Value export_nodes(GltfExport& out) {
     if (!node.name.empty()) json["name"] = node.name;
     export_transform(node, json);
     export_contents(out, meshes, contents[i], 0, node.name, json);
-    push(node.parent < 0 ? roots : children[static_cast<std::size_t>(node.parent)], i);
+    push(node.parent < 0 ? roots : children[node.parent], i);
     out.nodes.push_back(std::move(json));
   }
   // Further ones stand on nodes of their own, of the same name: it is the default light group.

@@ -19,7 +19,7 @@ using scene::Wrap;
 
 // Scene texture of a glTF image; −1 when it cannot be used, which is a warning: the factors still stand.
 int import_image(GltfImport& import, int index) {
-  int& texture = import.texture_of_image[static_cast<std::size_t>(index)];
+  int& texture = import.texture_of_image[index];
   if (texture != -2) return texture;
   texture = -1;
   const json::Cursor image = import.document.item("images", index);

@@ -218,9 +218,9 @@ std::optional<Mesh> import_primitive(GltfImport& import, const json::Cursor& pri
 }  // namespace
 
 const std::vector<int>& import_mesh(GltfImport& import, int index) {
-  auto& out = import.meshes_of_mesh[static_cast<std::size_t>(index)];
-  if (import.mesh_read[static_cast<std::size_t>(index)]) return out;
-  import.mesh_read[static_cast<std::size_t>(index)] = true;
+  auto& out = import.meshes_of_mesh[index];
+  if (import.mesh_read[index]) return out;
+  import.mesh_read[index] = true;
   const json::Cursor mesh = import.document.item("meshes", index);
   const std::string name = mesh.text_or("name", fmt::format("mesh {}", index));
   const json::Cursor primitives = mesh["primitives"];

@@ -80,7 +80,7 @@ void add_gpu_instances(GltfImport& import, const json::Cursor& file_node, const 
       document.ignored.add(fmt::format("instance attribute {}", printable(name, 40)));
     }
   }
-  const std::string name = import.scene.nodes[static_cast<std::size_t>(node)].name;
+  const std::string name = import.scene.nodes[node].name;
   document.charge(count.value_or(0) * (sizeof(Node) + name.size()), instancing);
   for (std::size_t i = 0; i < count.value_or(0); ++i) {
     Node child;
@@ -104,9 +104,9 @@ void add_light(GltfImport& import, const json::Cursor& file_node, int node) {
   const auto lights = extension(import.document.root(), "KHR_lights_punctual");
   const std::size_t count = lights ? lights->size_of("lights") : 0;
   const int index = (*reference)["light"].index(count, "lights");
-  auto light = import_light((*lights)["lights"][static_cast<std::size_t>(index)], import.document);
+  auto light = import_light((*lights)["lights"][index], import.document);
   light.node = node;
-  if (light.name.empty()) light.name = import.scene.nodes[static_cast<std::size_t>(node)].name;
+  if (light.name.empty()) light.name = import.scene.nodes[node].name;
   if (light.group.empty()) light.group = light_group_extra(file_node);
   import.scene.lights.push_back(std::move(light));
 }
@@ -124,7 +124,7 @@ void add_emission(GltfImport& import, const json::Cursor& settings, const scene:
 
 void add_sphl(GltfImport& import, const json::Cursor& file_node, int node) {
   const auto settings = extra(file_node, "sphl");
-  const std::string& name = import.scene.nodes[static_cast<std::size_t>(node)].name;
+  const std::string& name = import.scene.nodes[node].name;
   if (!settings && !name.starts_with("SPHL")) return;
   scene::Sphl sphl;
   sphl.name = name;
@@ -157,7 +157,7 @@ void add_contents(GltfImport& import, const json::Cursor& file_node, int node) {
   if (const auto camera = document.reference(file_node, "camera", "cameras")) {
     auto out = import_camera(document.item("cameras", *camera));
     out.node = node;
-    if (out.name.empty()) out.name = import.scene.nodes[static_cast<std::size_t>(node)].name;
+    if (out.name.empty()) out.name = import.scene.nodes[node].name;
     import.scene.cameras.push_back(std::move(out));
   }
   add_light(import, file_node, node);
@@ -188,7 +188,7 @@ std::vector<Visit> roots(GltfImport& import) {
     const auto children = node.find("children");
     if (!children) continue;
     for (const json::Cursor& child : json::elements(*children))
-      is_child[static_cast<std::size_t>(child.index(is_child.size(), "nodes"))] = true;
+      is_child[child.index(is_child.size(), "nodes")] = true;
   }
   for (std::size_t n = 0; n < is_child.size(); ++n) {
     if (!is_child[n]) out.push_back({static_cast<int>(n), -1, "nodes"});
@@ -211,7 +211,7 @@ void import_nodes(GltfImport& import) {
     const Visit visit = std::move(stack.back());
     stack.pop_back();
     const json::Cursor file_node = document.item("nodes", visit.node);
-    int& node = import.node_of_node[static_cast<std::size_t>(visit.node)];
+    int& node = import.node_of_node[visit.node];
     if (node >= 0) {
       json::Cursor(file_node.value(), file_node.file(), visit.from)
           .fail(fmt::format("node {} is reached a second time: nodes must form trees", visit.node));

@@ -79,14 +79,13 @@ std::optional<Skin> skin_of(Posed& posed, const BentInstance& bent) {
     }
   }
   for (std::size_t j = 0; j < count; ++j) {
-    const int joint =
-        posed.import.node_of_node[static_cast<std::size_t>(list[j].index(document.count("nodes"), "nodes"))];
+    const int joint = posed.import.node_of_node[list[j].index(document.count("nodes"), "nodes")];
     if (joint < 0) {
       document.ignored.add("skin with joints outside the scene");
       return std::nullopt;
     }
-    out.joints[j] = posed.world[static_cast<std::size_t>(joint)] * out.joints[j];
-    out.moves |= posed.import.scene.nodes[static_cast<std::size_t>(joint)].movable;
+    out.joints[j] = posed.world[joint] * out.joints[j];
+    out.moves |= posed.import.scene.nodes[joint].movable;
   }
   return out;
 }
@@ -98,7 +97,7 @@ int add_place(Posed& posed, int node, int parent) {
     auto& nodes = posed.import.scene.nodes;
     place->second = static_cast<int>(nodes.size());
     scene::Node own;
-    own.name = nodes[static_cast<std::size_t>(node)].name;
+    own.name = nodes[node].name;
     own.parent = parent;
     nodes.push_back(std::move(own));
   }
@@ -108,14 +107,14 @@ int add_place(Posed& posed, int node, int parent) {
 // What changes its shape over time counts as moving: a channel says so that keeps the node where it is.
 void mark_moving(Posed& posed, int node, float end) {
   auto& scene = posed.import.scene;
-  if (scene.nodes[static_cast<std::size_t>(node)].movable) return;
+  if (scene.nodes[node].movable) return;
   AnimationChannel channel;
   channel.node = node;
   channel.interpolation = scene::Interpolation::step;
   channel.times = end > 0 ? std::vector<float>{0, end} : std::vector<float>{0};
   channel.values.assign(channel.times.size(), vec4(0));
-  scene.animations.push_back({"shape of " + scene.nodes[static_cast<std::size_t>(node)].name, {channel}});
-  scene.nodes[static_cast<std::size_t>(node)].movable = true;
+  scene.animations.push_back({"shape of " + scene.nodes[node].name, {channel}});
+  scene.nodes[node].movable = true;
 }
 
 void pose(Posed& posed, const BentInstance& bent) {
@@ -159,7 +158,7 @@ void pose_meshes(GltfImport& import, float time) {
   if (import.bent.empty()) return;
   Posed posed{import, time, scene::world_matrices(import.scene, time),
               std::vector<std::size_t>(import.scene.meshes.size(), 0)};
-  for (const auto& instance : import.scene.instances) ++posed.users[static_cast<std::size_t>(instance.mesh)];
+  for (const auto& instance : import.scene.instances) ++posed.users[instance.mesh];
   for (const BentInstance& bent : import.bent) pose(posed, bent);
   if (posed.moving > 0) {
     log_warning(

@@ -162,9 +162,7 @@ TextureUse MtlImport::use(const MtlTexture& mtl, const std::filesystem::path& fo
 // A texture with the colour of one (white when < 0) and the coverage of another: its alpha channel, or its
 // red channel where alpha is 1 everywhere.
 int MtlImport::coverage_texture(int color, int coverage) {
-  const auto texture_at = [&](int i) -> const Texture& {
-    return scene_.textures[static_cast<std::size_t>(i)];
-  };
+  const auto texture_at = [&](int i) -> const Texture& { return scene_.textures[i]; };
   const Texture& mask = texture_at(coverage);
   bool has_alpha = false;
   for (std::size_t i = 3; i < mask.rgba.size() && !has_alpha; i += 4) has_alpha = mask.rgba[i] != 255;

@@ -145,7 +145,7 @@ class ObjReader {
       return;
     }
     polygon_.clear();
-    for (const Corner& c : corners_) polygon_.push_back(positions_[static_cast<std::size_t>(c.position)]);
+    for (const Corner& c : corners_) polygon_.push_back(positions_[c.position]);
     triangles_.clear();
     triangulate(polygon_, ear_clipping_work_, triangles_);
     Part& part = current_part();
@@ -206,10 +206,10 @@ class ObjReader {
         const auto [entry, is_new] = vertices.try_emplace(c, static_cast<std::uint32_t>(vertices.size()));
         triangle[static_cast<int>(k)] = entry->second;
         if (!is_new) continue;
-        mesh.positions.push_back(positions_[static_cast<std::size_t>(c.position)]);
-        if (has_uv) mesh.uvs[0].push_back(c.uv < 0 ? vec2(0) : uvs_[static_cast<std::size_t>(c.uv)]);
+        mesh.positions.push_back(positions_[c.position]);
+        if (has_uv) mesh.uvs[0].push_back(c.uv < 0 ? vec2(0) : uvs_[c.uv]);
         if (has_normal) {
-          const vec3 n = normals_[static_cast<std::size_t>(c.normal)];
+          const vec3 n = normals_[c.normal];
           const float length = glm::length(n);
           mesh.normals.push_back(length > 0 && std::isfinite(length) ? n / length : n);
         }
@@ -221,7 +221,7 @@ class ObjReader {
     node.name = part.name;
     scene::Instance instance;
     instance.mesh = instance.node = index;
-    const auto& material = scene_.materials[static_cast<std::size_t>(part.material)];
+    const auto& material = scene_.materials[part.material];
     if (material.emissive()) instance.light_group = material.name;
     scene_.meshes.push_back(std::move(mesh));
     scene_.nodes.push_back(std::move(node));
@@ -231,7 +231,7 @@ class ObjReader {
   int face_normal(const Part& part, std::size_t first_corner) {
     std::array<vec3, 3> p;
     for (std::size_t k = 0; k < 3; ++k) {
-      p[k] = positions_[static_cast<std::size_t>(part.corners[first_corner + k].position)];
+      p[k] = positions_[part.corners[first_corner + k].position];
     }
     const vec3 n = glm::cross(p[1] - p[0], p[2] - p[0]);
     const float length = glm::length(n);

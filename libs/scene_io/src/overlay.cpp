@@ -285,7 +285,7 @@ void scale_groups(Scene& scene, const json::Cursor& factors) {
                   fmt::format("it has: {}", fmt::join(groups, ", ")));
     const vec3 value = factor.vector3();
     if (!glm::all(glm::greaterThanEqual(value, vec3(0)))) factor.fail("must not be below 0");
-    state.group_scales[static_cast<std::size_t>(found - groups.begin())] = value;
+    state.group_scales[found - groups.begin()] = value;
   }
   scene = scene::with_lighting(std::move(scene), state);
 }

@@ -47,18 +47,17 @@ Extent extent_of(const Scene& scene) {
   constexpr std::size_t enough = 200'000;
   scene::check_indices(scene);
   std::size_t count = 0;
-  for (const auto& instance : scene.instances)
-    count += scene.meshes[static_cast<std::size_t>(instance.mesh)].positions.size();
+  for (const auto& instance : scene.instances) count += scene.meshes[instance.mesh].positions.size();
   const std::size_t step = count / enough + 1;
   const auto world = scene::world_matrices(scene);
   std::array<std::vector<float>, 3> along;
   std::size_t next = 0, begin = 0;
   for (const auto& instance : scene.instances) {
-    const auto& positions = scene.meshes[static_cast<std::size_t>(instance.mesh)].positions;
-    const mat4 m = instance.node < 0 ? mat4(1) : world[static_cast<std::size_t>(instance.node)];
+    const auto& positions = scene.meshes[instance.mesh].positions;
+    const mat4 m = instance.node < 0 ? mat4(1) : world[instance.node];
     for (; next < begin + positions.size(); next += step) {
       const vec3 p(m * vec4(positions[next - begin], 1));
-      for (int axis = 0; axis < 3; ++axis) along[static_cast<std::size_t>(axis)].push_back(p[axis]);
+      for (int axis = 0; axis < 3; ++axis) along[axis].push_back(p[axis]);
     }
     begin += positions.size();
   }

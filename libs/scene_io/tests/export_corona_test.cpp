@@ -233,12 +233,12 @@ TEST(ExportCorona, LampsGiveTheSameLight) {
   const Obj lamp = mesh_of(e, "light0", dir.path());
   vec3 center(0);
   for (const vec3& p : lamp.positions) center += p / static_cast<float>(lamp.positions.size());
-  EXPECT_LT(glm::distance(center, vec3(world[static_cast<std::size_t>(scene.lights[0].node)][3])), 1e-3f);
+  EXPECT_LT(glm::distance(center, vec3(world[scene.lights[0].node][3])), 1e-3f);
   EXPECT_NEAR(area(lamp) * pi_d * static_cast<double>(emission_of(e, "light0").x) / (4 * pi_d * 8), 1, 1e-3);
 
   // The spot: outside the hole the shell is whole, and its mean over the cone is the hole's.
-  const vec3 place(world[static_cast<std::size_t>(scene.lights[1].node)][3]);
-  const vec3 axis = -vec3(world[static_cast<std::size_t>(scene.lights[1].node)][2]);
+  const vec3 place(world[scene.lights[1].node][3]);
+  const vec3 axis = -vec3(world[scene.lights[1].node][2]);
   const Obj shell = mesh_of(e, "light1_shell", dir.path());
   float cos_hole = -1;
   for (const vec3& p : shell.positions)
@@ -255,7 +255,7 @@ TEST(ExportCorona, LampsGiveTheSameLight) {
 
   // The sun: irradiance = radiance · projected solid angle, its front toward the scene.
   const Obj sun = mesh_of(e, "light3", dir.path());
-  const vec3 direction = -vec3(world[static_cast<std::size_t>(scene.lights[3].node)][2]);
+  const vec3 direction = -vec3(world[scene.lights[3].node][2]);
   const vec3 normal =
       glm::normalize(glm::cross(sun.positions[1] - sun.positions[0], sun.positions[2] - sun.positions[0]));
   EXPECT_GT(glm::dot(normal, direction), 0.9999f);

@@ -43,8 +43,7 @@ json::Value numbers(const vec3& v) {
 mat4 matrix(const json::Value& rows) {
   mat4 m;
   for (int r = 0; r < 4; ++r) {
-    for (int c = 0; c < 4; ++c)
-      m[c][r] = float_of(rows[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)]);
+    for (int c = 0; c < 4; ++c) m[c][r] = float_of(rows[r][c]);
   }
   return m;
 }
@@ -68,7 +67,7 @@ TEST_F(ExportCycles, LightsAreInWorldSpace) {
   for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
     const scene::Light& light = scene_.lights[i];
     const json::Value& written = json_["lights"][i];
-    const mat4& place = world[static_cast<std::size_t>(light.node)];
+    const mat4& place = world[light.node];
     EXPECT_EQ(written["type"], types[i]);
     EXPECT_EQ(matrix(written["world"]), place);
     EXPECT_EQ(written["position"], numbers(vec3(place[3])));
@@ -136,8 +135,8 @@ TEST_F(ExportCycles, MeshesAreThoseOfTheInstancesInWorldSpace) {
   ASSERT_EQ(json_["meshes"].size(), scene_.instances.size());
   for (std::size_t i = 0; i < scene_.instances.size(); ++i) {
     SCOPED_TRACE(i);
-    const scene::Mesh& mesh = scene_.meshes[static_cast<std::size_t>(scene_.instances[i].mesh)];
-    const mat4& m = world[static_cast<std::size_t>(scene_.instances[i].node)];
+    const scene::Mesh& mesh = scene_.meshes[scene_.instances[i].mesh];
+    const mat4& m = world[scene_.instances[i].node];
     const json::Value& written = json_["meshes"][i];
     EXPECT_EQ(written["material"], mesh.material);
     const auto positions = array<vec3>(written["positions"], written["vertices"]);
@@ -151,7 +150,7 @@ TEST_F(ExportCycles, MeshesAreThoseOfTheInstancesInWorldSpace) {
     EXPECT_EQ(triangles, mesh.triangles);
     for (const int set : {0, 1}) {
       const std::string name = "uv" + std::to_string(set);
-      const std::vector<vec2>& uv = mesh.uvs[static_cast<std::size_t>(set)];
+      const std::vector<vec2>& uv = mesh.uvs[set];
       EXPECT_EQ(written.contains(name), !uv.empty());
       if (!uv.empty()) {
         EXPECT_EQ(array<vec2>(written[name.c_str()], written["vertices"]), uv);

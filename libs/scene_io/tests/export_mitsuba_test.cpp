@@ -315,9 +315,7 @@ TEST(ExportMitsuba, LightsStandAndShineWhereTheyDoHere) {
       if (c->at("type") == type) return *c;
     throw std::runtime_error("no " + type);
   };
-  const auto place = [&](std::size_t light) {
-    return world[static_cast<std::size_t>(scene.lights[light].node)];
-  };
+  const auto place = [&](std::size_t light) { return world[scene.lights[light].node]; };
   const auto vector = [](const XmlElement& p) {
     return vec3(numbers_of(p.at("x"))[0], numbers_of(p.at("y"))[0], numbers_of(p.at("z"))[0]);
   };

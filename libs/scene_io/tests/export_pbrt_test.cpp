@@ -334,9 +334,7 @@ TEST(ExportPbrt, LightsStandAndShineWhereTheyDoHere) {
   const scene::Scene scene = scene_of_everything();
   const std::vector<Statement> s = pbrt_statements(scene, export_settings(), dir);
   const std::vector<mat4> world = scene::world_matrices(scene);
-  const auto place = [&](std::size_t light) {
-    return world[static_cast<std::size_t>(scene.lights[light].node)];
-  };
+  const auto place = [&](std::size_t light) { return world[scene.lights[light].node]; };
   const Statement& point = find(s, "LightSource", "point");
   EXPECT_LT(glm::distance(point.vector("from"), vec3(place(0)[3])), 1e-5f);
   EXPECT_EQ(point.vector("I"), vec3(8, 4, 2));

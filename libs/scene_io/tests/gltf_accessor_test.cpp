@@ -126,8 +126,8 @@ void expect_decoded(const Component& component, bool normalized, Base base, bool
   const std::vector<vec3> positions = positions_read(builder);
   ASSERT_EQ(positions.size(), static_cast<std::size_t>(vertex_count));
   for (int i = 0; i < 3 * vertex_count; ++i) {
-    const double value = decoded(component, wanted[static_cast<std::size_t>(i)], normalized);
-    EXPECT_FLOAT_EQ(positions[static_cast<std::size_t>(i / 3)][i % 3], static_cast<float>(value))
+    const double value = decoded(component, wanted[i], normalized);
+    EXPECT_FLOAT_EQ(positions[i / 3][i % 3], static_cast<float>(value))
         << "vertex " << i / 3 << " component " << i % 3;
   }
 }

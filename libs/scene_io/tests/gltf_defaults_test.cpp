@@ -238,7 +238,7 @@ TEST(GltfDefaults, InstancesStandWhereTheirAttributesSayBelowTheirNode) {
   EXPECT_EQ(scene.instances[1].light_group, "g");
   const std::vector<mat4> world = scene::world_matrices(scene);
   const auto place = [&](std::size_t i, const vec3& p) {
-    return vec3(world[static_cast<std::size_t>(scene.instances[i].node)] * vec4(p, 1));
+    return vec3(world[scene.instances[i].node] * vec4(p, 1));
   };
   EXPECT_EQ(place(0, {1, 1, 1}), vec3(12, 23, 34));
   // Scaled to (2, 3, 4), turned by Rodrigues' formula with sin 0.96 and cos 0.28, moved

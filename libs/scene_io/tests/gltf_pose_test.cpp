@@ -34,12 +34,12 @@ class GltfPose : public testing::Test {
 /// Vertex `v` of instance `i` in the world.
 vec3 vertex(const Scene& scene, std::size_t v, std::size_t i = 0, float time = 0) {
   const auto& instance = scene.instances.at(i);
-  return {scene::world_matrices(scene, time)[static_cast<std::size_t>(instance.node)] *
-          vec4(scene.meshes[static_cast<std::size_t>(instance.mesh)].positions.at(v), 1)};
+  return {scene::world_matrices(scene, time)[instance.node] *
+          vec4(scene.meshes[instance.mesh].positions.at(v), 1)};
 }
 
 bool moves(const Scene& scene, std::size_t i = 0) {
-  return scene.nodes[static_cast<std::size_t>(scene.instances.at(i).node)].movable;
+  return scene.nodes[scene.instances.at(i).node].movable;
 }
 
 void expect_near(const vec3& found, const vec3& wanted) {
@@ -111,7 +111,7 @@ TEST_F(GltfPose, AnimatedWeightsGiveTheShapeOfATime) {
   expect_near(vertex(scene, 1, 0, 2), {1, 0.25f, 0});
   EXPECT_TRUE(moves(scene));
   EXPECT_EQ(scene::animation_duration(scene), 2);
-  EXPECT_EQ(scene.nodes[static_cast<std::size_t>(scene.instances[0].node)].name, "face");
+  EXPECT_EQ(scene.nodes[scene.instances[0].node].name, "face");
   EXPECT_THAT(lines_,
               ElementsAre("f: 1 of its meshes change shape over time (skins, morph targets): they have that "
                           "of 0.5 s (--time) and keep it while time goes on"));

@@ -65,7 +65,7 @@ void expect_faces(const scene::Mesh& mesh, const std::vector<std::vector<Corner>
   for (std::size_t f = 0; f < faces.size(); ++f) {
     for (int c = 0; c < 3; ++c) {
       SCOPED_TRACE("face " + std::to_string(f) + " corner " + std::to_string(c));
-      const Corner& wanted = faces[f][static_cast<std::size_t>(c)];
+      const Corner& wanted = faces[f][c];
       const std::uint32_t vertex = mesh.triangles[f][c];
       EXPECT_EQ(mesh.positions[vertex], position(wanted.v));
       const vec2 uv = coordinates(wanted.vt);

@@ -73,7 +73,7 @@ TEST(Overlay, AddsWhatItSays) {
 
   ASSERT_EQ(scene.lights.size(), 2u);
   const auto world = scene::world_matrices(scene);
-  const vec3 down = -vec3(world[static_cast<std::size_t>(scene.lights[0].node)][2]);
+  const vec3 down = -vec3(world[scene.lights[0].node][2]);
   EXPECT_NEAR(glm::length(down - vec3(0, -1, 0)), 0, 1e-6);  // float rounding
   EXPECT_EQ(scene.lights[0].intensity, 7);
   EXPECT_FLOAT_EQ(scene.lights[0].outer_cone, glm::radians(20.0f));
@@ -140,7 +140,7 @@ TEST(Overlay, SunSkyGivesEnvironmentAndSun) {
   apply_overlay(east, R"({"sun_sky": {"elevation_degrees": 10, "azimuth_degrees": 90, "width": 32}})",
                 "test.ssphh.json");
   const auto world = scene::world_matrices(east);
-  const vec3 shines = -vec3(world[static_cast<std::size_t>(east.lights.at(0).node)][2]);
+  const vec3 shines = -vec3(world[east.lights.at(0).node][2]);
   EXPECT_NEAR(shines.x, -std::cos(glm::radians(10.0f)), 1e-6);  // float rounding
   EXPECT_NEAR(shines.z, 0, 1e-6);
 }

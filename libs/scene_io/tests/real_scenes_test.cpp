@@ -31,8 +31,8 @@ class RealScenes : public testing::Test {
 };
 
 float area(const Scene& scene, const scene::Instance& instance, const std::vector<mat4>& world) {
-  const auto& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-  const mat4& m = world[static_cast<std::size_t>(instance.node)];
+  const auto& mesh = scene.meshes[instance.mesh];
+  const mat4& m = world[instance.node];
   float sum = 0;
   for (const uvec3& t : mesh.triangles) {
     const vec3 a(m * vec4(mesh.positions[t.x], 1)), b(m * vec4(mesh.positions[t.y], 1)),
@@ -97,9 +97,8 @@ TEST_F(RealScenes, NegativeScalesTurnHandednessInTheWorldMatrix) {
   const Scene scene = load_scene(path.string());
   const auto world = scene::world_matrices(scene);
   const auto mirrored =
-      std::count_if(scene.instances.begin(), scene.instances.end(), [&](const scene::Instance& i) {
-        return glm::determinant(mat3(world[static_cast<std::size_t>(i.node)])) < 0;
-      });
+      std::count_if(scene.instances.begin(), scene.instances.end(),
+                    [&](const scene::Instance& i) { return glm::determinant(mat3(world[i.node])) < 0; });
   EXPECT_GT(mirrored, 0);
   EXPECT_LT(mirrored, static_cast<std::ptrdiff_t>(scene.instances.size()));
 }
@@ -123,7 +122,7 @@ TEST_F(RealScenes, StripsFansAndListsCoverTheSameArea) {
   const auto world = scene::world_matrices(scene);
   for (const auto& instance : scene.instances) {
     EXPECT_FLOAT_EQ(area(scene, instance, world), area(scene, scene.instances[0], world));
-    const auto& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+    const auto& mesh = scene.meshes[instance.mesh];
     for (const uvec3& t : mesh.triangles) {
       const vec3 n =
           glm::cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]);
@@ -218,8 +217,8 @@ TEST_F(RealScenes, LightsOfTheCornellBoxesShineDown) {
     const Scene scene = load_scene((folder / (std::string("CornellBox-") + name + ".obj")).string());
     int lights = 0;
     for (const auto& instance : scene.instances) {
-      const auto& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-      if (!scene.materials[static_cast<std::size_t>(mesh.material)].emissive()) continue;
+      const auto& mesh = scene.meshes[instance.mesh];
+      if (!scene.materials[mesh.material].emissive()) continue;
       ++lights;
       EXPECT_EQ(instance.light_group, "light");
       for (const uvec3& t : mesh.triangles) {

@@ -134,7 +134,7 @@ TEST(SameScene, OneMatrixAndAChainOfNodesPutItInTheSamePlace) {
   for (const std::string& nodes : ways) {
     const scene::Scene scene = roof_as_gltf(nodes);
     const auto world = scene::world_matrices(scene);
-    const mat4& m = world[static_cast<std::size_t>(scene.instances.at(0).node)];
+    const mat4& m = world[scene.instances.at(0).node];
     for (const vec3& p : scene.meshes.at(0).positions) {
       const vec3 expected(1 + 5 * p.z, 2 + 2 * p.x, 3 + 3 * p.y);
       EXPECT_LT(glm::distance(vec3(m * vec4(p, 1)), expected), 1e-5f) << nodes;  // float rounding

@@ -127,7 +127,7 @@ TEST(Uri, AllBytesGoThroughBase64) {
     for (std::size_t k = bit; k < bit + 6; ++k)
       digit =
           2 * digit + (k < 8 * all.size() ? static_cast<unsigned char>(all[k / 8]) >> (7 - k % 8) & 1 : 0);
-    encoded += digits[static_cast<std::size_t>(digit)];
+    encoded += digits[digit];
   }
   EXPECT_EQ(text(decode_data_uri("data:;base64," + encoded, "here").value()), all);
 }

@@ -70,7 +70,7 @@ RadianceSh from_convention(std::span<const vec3> stored, Convention convention) 
   }
   RadianceSh radiance(degree);
   for (int k = 0; k < coefficient_count(degree); ++k) {
-    const vec3& value = stored[static_cast<std::size_t>(k)];
+    const vec3& value = stored[k];
     if (!is_finite(value)) throw Error("coefficients", fmt::format("value {} is not finite", k));
     radiance[k] = value / static_cast<float>(convention_factor(convention, k));
   }

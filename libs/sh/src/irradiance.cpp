@@ -16,8 +16,7 @@ constexpr std::array<double, max_degree + 1> make_factors() {
   double central = 1;
   for (int l = 2; l <= max_degree; l += 2) {
     central *= (l - 1.0) / l;
-    factors[static_cast<std::size_t>(l)] =
-        (l % 4 == 2 ? 1 : -1) * 2 * pi_d / ((l + 2.0) * (l - 1.0)) * central;
+    factors[l] = (l % 4 == 2 ? 1 : -1) * 2 * pi_d / ((l + 2.0) * (l - 1.0)) * central;
   }
   return factors;
 }
@@ -38,7 +37,7 @@ std::array<vec3, 9> first_bands(const RadianceSh& radiance) {
 
 double cosine_band_factor(int l) {
   require_degree(l, "cosine band factor");
-  return factors[static_cast<std::size_t>(l)];
+  return factors[l];
 }
 
 IrradianceSh irradiance_from_radiance(const RadianceSh& radiance) {
@@ -62,7 +61,7 @@ vec3 irradiance(const RadianceSh& radiance, const vec3& normal) {
     if (factor == 0) continue;
     for (int m = -l; m <= l; ++m) {
       const int k = coefficient_index(l, m);
-      sum += factor * basis[static_cast<std::size_t>(k)] * radiance[k];
+      sum += factor * basis[k] * radiance[k];
     }
   }
   return sum;

@@ -20,7 +20,7 @@ std::array<int, max_coefficient_count> parity_classes() {
       const int odd_y = m < 0 ? 1 : 0;
       const int odd_x = (order + odd_y) & 1;
       const int odd_z = (l - order) & 1;
-      classes[static_cast<std::size_t>(coefficient_index(l, m))] = odd_x | odd_y << 1 | odd_z << 2;
+      classes[coefficient_index(l, m)] = odd_x | odd_y << 1 | odd_z << 2;
     }
   }
   return classes;
@@ -114,7 +114,7 @@ void combine_octants(const float8& weight, float8* light) {
 
 float8 load8(const std::vector<float>& values, int first) {
   float8 v;
-  __builtin_memcpy(&v, &values[static_cast<std::size_t>(first)], sizeof v);
+  __builtin_memcpy(&v, &values[first], sizeof v);
   return v;
 }
 
@@ -133,8 +133,7 @@ CubeProjector::CubeProjector(int degree, int face_size)
   half_major_.resize(static_cast<std::size_t>(stride) * static_cast<std::size_t>(half_));
   half_solid_angles_.resize(half_major_.size());
   const auto coordinate = [&](int i) { return (2.0 * (face_size / 2 + i) + 1) / face_size - 1; };
-  for (int i = 0; i < half_; ++i)
-    half_coordinates_[static_cast<std::size_t>(i)] = static_cast<float>(coordinate(i));
+  for (int i = 0; i < half_; ++i) half_coordinates_[i] = static_cast<float>(coordinate(i));
   // The middle row and column of an odd size are their own mirror image: they are met twice.
   const auto share = [&](int i) { return face_size % 2 == 1 && i == 0 ? 0.5 : 1.0; };
   for (int j = 0; j < half_; ++j) {
@@ -162,7 +161,7 @@ RadianceSh CubeProjector::project(const CubeFaces& faces, int channels) const {
     OctantPlace places[octant_count];
     for (int octant = 0; octant < octant_count; ++octant) places[octant] = octant_place(axis, octant);
     for (int j = 0; j < half_; ++j) {
-      const float t = half_coordinates_[static_cast<std::size_t>(j)];
+      const float t = half_coordinates_[j];
       for (int i = 0; i < half_; i += lane_count) {
         const int lanes = std::min(lane_count, half_ - i);
 
@@ -184,7 +183,7 @@ RadianceSh CubeProjector::project(const CubeFaces& faces, int channels) const {
           const OctantPlace& place = places[octant];
           const int y = place.mirrored_rows ? face_size_ - 1 - middle - j : middle + j;
           const int x = place.mirrored_columns ? face_size_ - 1 - middle - i : middle + i;
-          const float* row = faces[static_cast<std::size_t>(place.face)].data() +
+          const float* row = faces[place.face].data() +
                              static_cast<std::size_t>(y) * static_cast<std::size_t>(face_size_ * channels);
           load_texels(row, x, place.mirrored_columns, lanes, channels, light + octant * 3);
         }

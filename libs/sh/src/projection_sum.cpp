@@ -56,8 +56,8 @@ ProjectionSum::ProjectionSum(int degree, int light_count,
   for (int light = 0; light < light_count; ++light) {
     CoefficientTile tile{.light = light};
     for (int k = 0; k < coefficient_count(degree); ++k) {
-      if (light_class[static_cast<std::size_t>(k)] != light) continue;
-      tile.coefficients[static_cast<std::size_t>(tile.count++)] = k;
+      if (light_class[k] != light) continue;
+      tile.coefficients[tile.count++] = k;
       if (tile.count == 4) {
         tiles_.push_back(tile);
         tile.count = 0;
@@ -106,7 +106,7 @@ RadianceSh ProjectionSum::result() {
   sum_pending();
   flush();
   RadianceSh sh(degree_);
-  for (int k = 0; k < coefficient_count(degree_); ++k) sh[k] = vec3(totals_[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < coefficient_count(degree_); ++k) sh[k] = vec3(totals_[k]);
   return sh;
 }
 

@@ -26,7 +26,7 @@ class ProjectionSum {
 
   /// Slot for the next block. The caller fills basis (by direction) and light, weights included.
   void add_direction_block(const float8& x, const float8& y, const float8& z) {
-    eval_recurrence(table_, degree_, x, y, z, basis_[static_cast<std::size_t>(pending_)].data());
+    eval_recurrence(table_, degree_, x, y, z, basis_[pending_].data());
   }
   /// [light_count][3] of the block whose directions were just given.
   float8* light() { return lights_.data() + pending_ * light_count_ * 3; }

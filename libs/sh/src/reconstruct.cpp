@@ -12,7 +12,7 @@ vec3 eval_sum(const RgbSh<Quantity>& sh, int degree, const vec3& direction) {
   std::array<float, max_coefficient_count> basis;
   eval_basis(degree, direction, basis);
   vec3 sum(0);
-  for (int k = 0; k < coefficient_count(degree); ++k) sum += basis[static_cast<std::size_t>(k)] * sh[k];
+  for (int k = 0; k < coefficient_count(degree); ++k) sum += basis[k] * sh[k];
   return sum;
 }
 

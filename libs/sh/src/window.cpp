@@ -34,7 +34,7 @@ const Samples& samples() {
     made.basis.resize(sample_count);
     for (int i = 0; i < sample_count; ++i) {
       made.directions.push_back(glm::normalize(glm::dvec3(spherical_fibonacci(i, sample_count))));
-      eval_basis(max_degree, made.directions.back(), made.basis[static_cast<std::size_t>(i)]);
+      eval_basis(max_degree, made.directions.back(), made.basis[i]);
     }
     return made;
   }();
@@ -132,9 +132,9 @@ class WindowedChannel {
     for (int l = 0; l <= degree; ++l) {
       double squares = 0;
       for (int k = coefficient_index(l, -l); k <= coefficient_index(l, l); ++k)
-        squares += values[static_cast<std::size_t>(k)] * values[static_cast<std::size_t>(k)];
+        squares += values[k] * values[k];
       // Addition theorem and Cauchy–Schwarz.
-      largest_[static_cast<std::size_t>(l)] = std::sqrt(squares * (2 * l + 1) / (4 * pi_d));
+      largest_[l] = std::sqrt(squares * (2 * l + 1) / (4 * pi_d));
     }
   }
 
@@ -142,8 +142,7 @@ class WindowedChannel {
     const double mean = values_[0] / std::sqrt(4 * pi_d);
     double swing = 0, curvature = 0;
     for (int l = 1; l <= degree_; ++l) {
-      const double most =
-          static_cast<double>(scales[static_cast<std::size_t>(l)]) * largest_[static_cast<std::size_t>(l)];
+      const double most = static_cast<double>(scales[l]) * largest_[l];
       swing += most;
       curvature += l * l * most;
     }
@@ -157,15 +156,14 @@ class WindowedChannel {
     for (std::size_t i = 0; i < sample_count; ++i) {
       const double* bands = &bands_[i * static_cast<std::size_t>(degree_ + 1)];
       double sum = 0;
-      for (int l = 0; l <= degree_; ++l)
-        sum += static_cast<double>(scales[static_cast<std::size_t>(l)]) * bands[l];
+      for (int l = 0; l <= degree_; ++l) sum += static_cast<double>(scales[l]) * bands[l];
       if (sum < level) return true;
       if (sum < level + hidden) suspects.add(sum, i);
     }
     Channel scaled = values_;
     for (int l = 0; l <= degree_; ++l) {
       for (int k = coefficient_index(l, -l); k <= coefficient_index(l, l); ++k)
-        scaled[static_cast<std::size_t>(k)] *= static_cast<double>(scales[static_cast<std::size_t>(l)]);
+        scaled[k] *= static_cast<double>(scales[l]);
     }
     return std::ranges::any_of(suspects.all(), [&](const LowestSamples::Sample& suspect) {
       return descend(scaled, degree_, samples().directions[suspect.index], suspect.value) < level;
@@ -180,7 +178,7 @@ class WindowedChannel {
       for (int l = 0; l <= degree_; ++l) {
         double sum = 0;
         for (int k = coefficient_index(l, -l); k <= coefficient_index(l, l); ++k)
-          sum += basis[static_cast<std::size_t>(k)] * values_[static_cast<std::size_t>(k)];
+          sum += basis[k] * values_[k];
         bands_.push_back(sum);
       }
     }
@@ -230,8 +228,7 @@ Channel channel_values(const RadianceSh& radiance, NonNegative goal, int c) {
   for (int l = 0; l <= radiance.degree(); ++l) {
     for (int k = coefficient_index(l, -l); k <= coefficient_index(l, l);
          ++k)  // rounded as irradiance_from_radiance()
-      values[static_cast<std::size_t>(k)] =
-          static_cast<double>(radiance[k][c] * static_cast<float>(cosine_band_factor(l)));
+      values[k] = static_cast<double>(radiance[k][c] * static_cast<float>(cosine_band_factor(l)));
   }
   return values;
 }
@@ -241,20 +238,17 @@ BandScales window(double width, const Shape& shape) {
   require(width > 0, "window", "its width must be over 0");
   BandScales scales{};
   for (int l = 0; l <= max_degree; ++l) {
-    scales[static_cast<std::size_t>(l)] = l == 0      ? 1.0f
-                                          : l < width ? static_cast<float>(shape(pi_d * l / width))
-                                                      : 0.0f;
+    scales[l] = l == 0 ? 1.0f : l < width ? static_cast<float>(shape(pi_d * l / width)) : 0.0f;
   }
   return scales;
 }
 
 AutoWindow choose_window(Workspaces::Workspace& wanted, const RadianceSh& radiance, NonNegative goal) {
   AutoWindow result;
-  for (int c = 0; c < 3; ++c)
-    wanted[static_cast<std::size_t>(c)].assign(channel_values(radiance, goal, c), radiance.degree());
+  for (int c = 0; c < 3; ++c) wanted[c].assign(channel_values(radiance, goal, c), radiance.degree());
   const auto all_above = [&](const glm::dvec3& levels, const BandScales& scales) {
     for (int c = 0; c < 3; ++c) {
-      if (wanted[static_cast<std::size_t>(c)].below(levels[c], scales)) return false;
+      if (wanted[c].below(levels[c], scales)) return false;
     }
     return true;
   };
@@ -298,7 +292,7 @@ RadianceSh apply_window(const RadianceSh& sh, const BandScales& scales) {
 void window_in_place(RadianceSh& sh, const BandScales& scales) {
   require_degree(std::max(sh.degree(), 0), "window");
   for (int l = 0; l <= sh.degree(); ++l) {
-    const float scale = scales[static_cast<std::size_t>(l)];
+    const float scale = scales[l];
     if (scale == 1) continue;
     for (int k = coefficient_index(l, -l); k <= coefficient_index(l, l); ++k) sh[k] *= scale;
   }

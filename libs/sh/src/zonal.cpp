@@ -59,8 +59,7 @@ GlossyTable make_glossy_table() {
   for (int i = 1; i <= roughness_steps; ++i) {
     const double roughness = static_cast<double>(i) / roughness_steps;
     const auto scales = ggx_band_scales(roughness * roughness);
-    std::ranges::transform(scales, table[static_cast<std::size_t>(i)].begin(),
-                           [](double scale) { return static_cast<float>(scale); });
+    std::ranges::transform(scales, table[i].begin(), [](double scale) { return static_cast<float>(scale); });
   }
   return table;
 }
@@ -79,7 +78,7 @@ ZonalSh zonal_from_function(int degree, const std::function<double(double)>& f, 
     const double weight = 2 * pi_d * half * rule.weights[i] * f(x);
     const auto p = legendre(degree, x);
     for (int l = 0; l <= degree; ++l) {
-      zonal[static_cast<std::size_t>(l)] += weight * zonal_norm(l) * p[static_cast<std::size_t>(l)];
+      zonal[l] += weight * zonal_norm(l) * p[l];
     }
   }
   return zonal;
@@ -97,7 +96,7 @@ double eval_zonal(const ZonalSh& zonal, double cos_theta) {
   const auto p = legendre(degree, cos_theta);
   double sum = 0;
   for (int l = 0; l <= degree; ++l) {
-    sum += zonal[static_cast<std::size_t>(l)] * zonal_norm(l) * p[static_cast<std::size_t>(l)];
+    sum += zonal[l] * zonal_norm(l) * p[l];
   }
   return sum;
 }
@@ -106,9 +105,8 @@ void rotate_zonal(const ZonalSh& zonal, const vec3& axis, std::span<float> out) 
   const int degree = zonal_degree(zonal);
   eval_basis(degree, axis, out);
   for (int l = 0; l <= degree; ++l) {
-    const auto factor = static_cast<float>(zonal[static_cast<std::size_t>(l)] / zonal_norm(l));
-    for (int k = coefficient_index(l, -l); k <= coefficient_index(l, l); ++k)
-      out[static_cast<std::size_t>(k)] *= factor;
+    const auto factor = static_cast<float>(zonal[l] / zonal_norm(l));
+    for (int k = coefficient_index(l, -l); k <= coefficient_index(l, l); ++k) out[k] *= factor;
   }
 }
 
@@ -125,7 +123,7 @@ RadianceSh convolve(const RadianceSh& sh, const ZonalSh& kernel) {
 double ggx_band_scale(double alpha, int l) {
   require_degree(l, "glossy band scale");
   require(alpha > 0, "glossy band scale", "alpha must be over 0");
-  return ggx_band_scales(alpha)[static_cast<std::size_t>(l)];
+  return ggx_band_scales(alpha)[l];
 }
 
 double gaussian_band_scale(double sigma, int l) {
@@ -138,7 +136,7 @@ std::array<float, max_degree + 1> glossy_band_scales(float roughness) {
       (roughness > 0 ? std::min(roughness, 1.0f) : 0.0f) * roughness_steps;  // NaN counts as 0
   const int first = std::min(static_cast<int>(place), roughness_steps - 1);
   const float t = place - static_cast<float>(first);
-  const auto &a = table[static_cast<std::size_t>(first)], &b = table[static_cast<std::size_t>(first) + 1];
+  const auto &a = table[first], &b = table[static_cast<std::size_t>(first) + 1];
   std::array<float, max_degree + 1> scales;
   for (std::size_t l = 0; l < scales.size(); ++l) scales[l] = a[l] + t * (b[l] - a[l]);
   return scales;
@@ -154,9 +152,9 @@ vec3 eval_glossy(const RadianceSh& radiance, const vec3& mirror, float roughness
   for (int l = 0; l <= degree; ++l) {
     vec3 band(0);
     for (int k = coefficient_index(l, -l); k <= coefficient_index(l, l); ++k) {
-      band += basis[static_cast<std::size_t>(k)] * radiance[k];
+      band += basis[k] * radiance[k];
     }
-    sum += scales[static_cast<std::size_t>(l)] * band;
+    sum += scales[l] * band;
   }
   return sum;
 }

@@ -54,11 +54,9 @@ TEST(EvalBasis, EqualsBoostForAllBands) {
             boost::math::spherical_harmonic(static_cast<unsigned>(l), m, p.theta, p.phi);
         const double scale = (m % 2 ? -1 : 1) * (m == 0 ? 1 : std::sqrt(2.0));
         // Rounding of the recurrence in double precision.
-        ASSERT_NEAR(y[static_cast<std::size_t>(coefficient_index(l, m))], scale * complex.real(), 1e-13)
-            << l << ' ' << m;
+        ASSERT_NEAR(y[coefficient_index(l, m)], scale * complex.real(), 1e-13) << l << ' ' << m;
         if (m > 0) {
-          ASSERT_NEAR(y[static_cast<std::size_t>(coefficient_index(l, -m))], scale * complex.imag(), 1e-13)
-              << l << ' ' << -m;
+          ASSERT_NEAR(y[coefficient_index(l, -m)], scale * complex.imag(), 1e-13) << l << ' ' << -m;
         }
       }
     }
@@ -72,8 +70,7 @@ TEST(EvalBasis, EqualsTheSlowReference) {
     for (int l = 0; l <= max_degree; ++l) {
       for (int m = -l; m <= l; ++m) {
         // The reference's explicit sum cancels up to ~1e3 between terms: 1e-12.
-        ASSERT_NEAR(y[static_cast<std::size_t>(coefficient_index(l, m))],
-                    reference_basis(l, m, p.theta, p.phi), 1e-12)
+        ASSERT_NEAR(y[coefficient_index(l, m)], reference_basis(l, m, p.theta, p.phi), 1e-12)
             << l << ' ' << m;
       }
     }
@@ -144,7 +141,7 @@ TEST(EvalBasis, ObeysTheAdditionTheorem) {
     for (int l = 0; l <= max_degree; ++l) {
       double sum = 0;
       for (int k = coefficient_index(l, -l); k <= coefficient_index(l, l); ++k) {
-        sum += ya[static_cast<std::size_t>(k)] * yb[static_cast<std::size_t>(k)];
+        sum += ya[k] * yb[k];
       }
       const double legendre = std::legendre(static_cast<unsigned>(l), glm::clamp(glm::dot(a, b), -1.0, 1.0));
       EXPECT_NEAR(sum, (2 * l + 1) / (4 * pi_d) * legendre, 1e-13);

@@ -42,7 +42,7 @@ RadianceSh project_cube_slowly(int degree, const Cube& cube) {
     for (int y = 0; y < cube.size; ++y) {
       for (int x = 0; x < cube.size; ++x) {
         eval_basis(degree, glm::normalize(glm::dvec3(texel_direction(face, x, y, cube.size))), basis);
-        const float* p = &cube.texels[face][static_cast<std::size_t>((y * cube.size + x) * cube.channels)];
+        const float* p = &cube.texels[face][(y * cube.size + x) * cube.channels];
         for (std::size_t k = 0; k < basis.size(); ++k) {
           sums[k] += basis[k] * texel_solid_angle(x, y, cube.size) * glm::dvec3(p[0], p[1], p[2]);
         }
@@ -50,7 +50,7 @@ RadianceSh project_cube_slowly(int degree, const Cube& cube) {
     }
   }
   RadianceSh sh(degree);
-  for (int k = 0; k < coefficient_count(degree); ++k) sh[k] = vec3(sums[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < coefficient_count(degree); ++k) sh[k] = vec3(sums[k]);
   return sh;
 }
 
@@ -135,7 +135,7 @@ TEST(ProjectSamples, EqualsTheDoublePrecisionSum) {
     const RadianceSh sh = project(max_degree, directions, weights, radiance);
     for (int k = 0; k < max_coefficient_count; ++k) {
       // Weights sum to about ½: single-precision rounding of terms below 1.
-      EXPECT_LT(largest_difference(sh[k], vec3(sums[static_cast<std::size_t>(k)])), 2e-6f);
+      EXPECT_LT(largest_difference(sh[k], vec3(sums[k])), 2e-6f);
     }
     EXPECT_EQ(project(max_degree, directions, double_weights, radiance), sh);
   }

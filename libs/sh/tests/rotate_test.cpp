@@ -47,10 +47,10 @@ TEST(Rotation, TurnsEveryBasisFunction) {
       for (int n = -l; n <= l; ++n) {
         double sum = 0;
         for (int m = -l; m <= l; ++m) {
-          sum += rotation.element(l, m, n) * at[static_cast<std::size_t>(coefficient_index(l, m))];
+          sum += rotation.element(l, m, n) * at[coefficient_index(l, m)];
         }
         // Rounding of ten steps of the recursion.
-        ASSERT_NEAR(sum, from[static_cast<std::size_t>(coefficient_index(l, n))], 1e-12) << l << ' ' << n;
+        ASSERT_NEAR(sum, from[coefficient_index(l, n)], 1e-12) << l << ' ' << n;
       }
     }
   }

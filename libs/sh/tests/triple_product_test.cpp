@@ -36,7 +36,7 @@ TEST(TripleProduct, EqualsBruteForceQuadratureForEveryIndex) {
   std::size_t nonzero = 0;
   for (int t = 0; t < count * count * count; ++t) {
     const auto found = entries.find({t / (count * count), t / count % count, t % count});
-    const double exact = truth[static_cast<std::size_t>(t)];
+    const double exact = truth[t];
     nonzero += std::abs(exact) > 1e-12 ? 1 : 0;
     // Stored in single precision.
     EXPECT_NEAR(found == entries.end() ? 0 : found->second, exact, 1e-7) << t;

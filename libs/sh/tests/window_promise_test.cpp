@@ -44,7 +44,7 @@ TEST(Window, ScalesEveryCoefficientByTheFactorOfItsBand) {
     ASSERT_EQ(windowed.degree(), degree);
     for (int k = 0; k < coefficient_count(degree); ++k) {
       const int l = static_cast<int>(std::sqrt(k + 0.5));
-      EXPECT_EQ(windowed[k], sh[k] * scales[static_cast<std::size_t>(l)]) << k;
+      EXPECT_EQ(windowed[k], sh[k] * scales[l]) << k;
     }
   }
 }
@@ -69,8 +69,7 @@ void add_trough(RadianceSh& sh, int channel, const vec3& axis, double depth) {
   // Addition theorem: Σ_k Y_k² over bands 1..degree.
   const double peak = (coefficient_count(degree) - 1) / (4 * pi_d);
   for (int k = 1; k < coefficient_count(degree); ++k)
-    sh[k][channel] -=
-        static_cast<float>(depth / peak * static_cast<double>(basis[static_cast<std::size_t>(k)]));
+    sh[k][channel] -= static_cast<float>(depth / peak * static_cast<double>(basis[k]));
 }
 
 /// `mean` of a channel.

@@ -26,7 +26,7 @@ TEST(Zonal, CoefficientsAreTheProjectionOfTheLobe) {
   });
   for (int l = 0; l <= max_degree; ++l) {
     for (int m = -l; m <= l; ++m) {
-      const double expected = m == 0 ? zonal[static_cast<std::size_t>(l)] : 0;
+      const double expected = m == 0 ? zonal[l] : 0;
       EXPECT_NEAR(truth[coefficient_index(l, m)].x, expected, 1e-6)
           << l << ' ' << m;  // lobe rounded to float
     }
@@ -38,7 +38,7 @@ TEST(Zonal, EvaluatesToTheSameAsTheFullSeries) {
   std::vector<float> full(coefficient_count(8));
   rotate_zonal(zonal, vec3(0, 0, 1), full);
   RadianceSh sh(8);
-  for (int k = 0; k < coefficient_count(8); ++k) sh[k] = vec3(full[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < coefficient_count(8); ++k) sh[k] = vec3(full[k]);
   for (int i = 0; i < 50; ++i) {
     const vec3 d = spherical_fibonacci(i, 50);
     EXPECT_NEAR(eval(sh, d).x, eval_zonal(zonal, static_cast<double>(d.z)), 1e-5);  // single precision
@@ -53,7 +53,7 @@ TEST(Zonal, RotationPointsTheLobeAlongItsAxis) {
     return vec3(static_cast<float>(bump(static_cast<double>(glm::dot(d, axis)))));
   });
   for (int k = 0; k < max_coefficient_count; ++k) {
-    EXPECT_NEAR(turned[static_cast<std::size_t>(k)], truth[k].x, 2e-6) << k;  // single precision
+    EXPECT_NEAR(turned[k], truth[k].x, 2e-6) << k;  // single precision
   }
 }
 
@@ -124,8 +124,7 @@ TEST(GlossyLobe, TableKeepsItsStatedError) {
     const auto scales = glossy_band_scales(roughness);
     const double alpha = static_cast<double>(roughness) * static_cast<double>(roughness);
     for (int l = 0; l <= max_degree; ++l) {
-      ASSERT_NEAR(scales[static_cast<std::size_t>(l)], ggx_band_scale(alpha, l), 1e-3)
-          << roughness << ' ' << l;
+      ASSERT_NEAR(scales[l], ggx_band_scale(alpha, l), 1e-3) << roughness << ' ' << l;
     }
   }
 }
@@ -160,8 +159,7 @@ TEST(GlossyLobe, GaussianIsTheHeatKernelOfItsVariance) {
       4, [&](double c) { return std::exp((c - 1) / (sigma * sigma)) / (2 * pi_d * sigma * sigma); }, 0.5,
       200);
   for (int l = 0; l <= 4; ++l) {
-    const double scale = zonal[static_cast<std::size_t>(l)] * std::sqrt(4 * pi_d / (2 * l + 1)) /
-                         (zonal[0] * std::sqrt(4 * pi_d));
+    const double scale = zonal[l] * std::sqrt(4 * pi_d / (2 * l + 1)) / (zonal[0] * std::sqrt(4 * pi_d));
     // The two differ by terms of order σ⁴ l⁴.
     EXPECT_NEAR(scale, gaussian_band_scale(sigma, l), 1e-3) << l;
   }

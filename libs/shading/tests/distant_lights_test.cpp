@@ -49,7 +49,7 @@ TEST(DirectionalLight, OfAScaledNodeIsTheSame) {
     scene::Scene plain;
     add_light(plain, LightType::directional, vec3(0), {1, -2, 3}).angular_radius = angular_radius;
     scene::Scene scaled = plain;
-    scaled.nodes[static_cast<std::size_t>(scaled.lights[0].node)].local.scale = {2, 0.5f, 4};
+    scaled.nodes[scaled.lights[0].node].local.scale = {2, 0.5f, 4};
     const auto a = make_lights(plain).sample(vec3(0), 0.5f, vec2(0.3f, 0.6f)),
                b = make_lights(scaled).sample(vec3(0), 0.5f, vec2(0.3f, 0.6f));
     ASSERT_TRUE(a && b);

@@ -130,7 +130,7 @@ TEST(Emitters, PosedAnewTheyAreThoseOfTheSceneThatStandsSo) {
   const LightSet expected(moved, after);
   std::vector<scene::LightState> states;
   for (const scene::Light& light : moved.lights)
-    states.push_back({after[static_cast<std::size_t>(light.node)], light.color, light.intensity});
+    states.push_back({after[light.node], light.color, light.intensity});
   const LightSet posed(base, after, states);
   ASSERT_EQ(posed.emitter_count(), expected.emitter_count());
   EXPECT_EQ(posed.groups(), expected.groups());

@@ -87,10 +87,10 @@ TEST(LightList, OfOneOfEverythingIsWhatItWas) {
 
 TEST(LightList, OfLampsThatWereChangedMovedAndTurnedIsWhatItWas) {
   scene::Scene scene = ssphh::test::busy_scene();
-  scene.nodes[static_cast<std::size_t>(scene.instances[4].node)].movable = true;
+  scene.nodes[scene.instances[4].node].movable = true;
   const LightSet before(scene, scene::world_matrices(scene));
   std::vector<mat4> world = scene::world_matrices(scene);
-  world[static_cast<std::size_t>(scene.instances[4].node)][3] += vec4(0.3f, -0.2f, 0.5f, 0);
+  world[scene.instances[4].node][3] += vec4(0.3f, -0.2f, 0.5f, 0);
   std::vector<scene::LightState> states = scene::lighting_at(scene).lights;
   for (std::size_t i = 0; i < states.size(); ++i) {
     states[i].world[3] += vec4(0.1f * static_cast<float>(i), 0.2f, -0.1f, 0);

@@ -38,7 +38,7 @@ scene::Scene everything(int points) {
 /// The same scene with one light only; −1: the panel, −2: the environment.
 scene::Scene only(scene::Scene scene, int light) {
   if (light >= 0) {
-    scene.lights = {scene.lights[static_cast<std::size_t>(light)]};
+    scene.lights = {scene.lights[light]};
   } else {
     scene.lights.clear();
   }
@@ -202,7 +202,7 @@ TEST(LightSet, WithoutSomeGroupsIsTheSetOfAllOthers) {
         EXPECT_EQ(a->wi, b->wi);
         EXPECT_EQ(a->radiance, b->radiance);
         EXPECT_EQ(a->pdf, b->pdf);
-        EXPECT_FALSE(is_out(groups[static_cast<std::size_t>(a->group)]));
+        EXPECT_FALSE(is_out(groups[a->group]));
       }
       for (std::size_t i = 0; i < scene.instances.size(); ++i)
         EXPECT_EQ(rest.instance_group(static_cast<int>(i)),

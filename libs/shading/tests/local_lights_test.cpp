@@ -178,7 +178,7 @@ TEST(AreaLight, DensityOfAHitIsThatOfTheSample) {
   const LightSet lights = make_lights(scene);
   Pcg32 random(9);
   const vec3 from(2, 0, 0.5f);
-  const mat4 world = scene::world_matrices(scene)[static_cast<std::size_t>(scene.instances[0].node)];
+  const mat4 world = scene::world_matrices(scene)[scene.instances[0].node];
   const vec3 normal = glm::normalize(vec3(glm::transpose(glm::inverse(world)) * vec4(0, -1, 0, 0)));
   int compared = 0;
   for (int n = 0; n < 500; ++n) {

@@ -75,7 +75,7 @@ std::optional<Hit> hit(const Box& box, const Ray& ray) {
     leave = std::min(leave, far);
   }
   if (side < 0 || !(enter < leave)) return {};
-  return Hit{enter, box.colors[static_cast<std::size_t>(side)], box.light, 0};
+  return Hit{enter, box.colors[side], box.light, 0};
 }
 
 std::optional<Hit> hit(const Ball& ball, const Ray& ray) {

@@ -73,7 +73,7 @@ std::vector<int> find_rooms(const LintContext& context, std::vector<LintProblem>
   std::vector<int> room(count);
   std::iota(room.begin(), room.end(), 0);
   const auto root = [&](int i) {
-    while (room[static_cast<std::size_t>(i)] != i) i = room[static_cast<std::size_t>(i)];
+    while (room[i] != i) i = room[i];
     return i;
   };
   const place::Sweep now = place::Sweep::at(context.source, context.set.generator.time);
@@ -83,7 +83,7 @@ std::vector<int> find_rooms(const LintContext& context, std::vector<LintProblem>
       linked[i] = linked[j] = true;
       if (now.separates(probes[i].position, probes[j].position)) continue;
       const int a = root(static_cast<int>(i)), b = root(static_cast<int>(j));
-      room[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+      room[std::max(a, b)] = std::min(a, b);
     }
   }
   for (std::size_t i = 0; i < count; ++i) room[i] = root(static_cast<int>(i));

@@ -39,8 +39,8 @@ std::vector<vec3> some_vertices(const scene::Scene& scene, float time) {
   const std::vector<mat4> world = scene::world_matrices(scene, time);
   std::vector<vec3> out;
   for (const scene::Instance& instance : scene.instances) {
-    const mat4 matrix = instance.node < 0 ? mat4(1) : world[static_cast<std::size_t>(instance.node)];
-    const std::vector<vec3>& positions = scene.meshes[static_cast<std::size_t>(instance.mesh)].positions;
+    const mat4 matrix = instance.node < 0 ? mat4(1) : world[instance.node];
+    const std::vector<vec3>& positions = scene.meshes[instance.mesh].positions;
     const double root = std::sqrt(static_cast<double>(positions.size()));
     const auto step = static_cast<std::size_t>(std::max(1.0, root / 8));
     for (std::size_t i = 0; i < positions.size(); i += step) out.emplace_back(matrix * vec4(positions[i], 1));

@@ -102,7 +102,7 @@ LookupError lookup_error(std::span<const vec3> looked_up, std::span<const rays::
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const vec3 deviation = glm::sqrt(glm::max(truth[i].indirect_variance, vec3(0)));
     for (int c = 0; c < 3; ++c) {
-      Quantity& q = rgb[static_cast<std::size_t>(c)];
+      Quantity& q = rgb[c];
       q.looked_up.push_back(static_cast<double>(looked_up[i][c]));
       q.truth.push_back(static_cast<double>(truth[i].indirect[c]));
       q.deviation.push_back(static_cast<double>(deviation[c]));

@@ -175,7 +175,7 @@ TEST(LookupError, TheWorstChannelIsOneForEachFigure) {
   LookupError e;
   e.channels[0].ratio = 1.2, e.channels[1].ratio = 0.7, e.channels[2].ratio = std::nan("");
   e.channels[0].mean_error = 0.3, e.channels[1].p95_relative = 0.8, e.channels[2].median_relative = 0.25;
-  for (int c = 0; c < 3; ++c) e.channels[static_cast<std::size_t>(c)].relmse = -0.3 + 0.1 * c;
+  for (int c = 0; c < 3; ++c) e.channels[c].relmse = -0.3 + 0.1 * c;
   e.channels[1].noise = 0.125, e.channels[2].mean_relative = 0.5;
   const RelativeError worst = worst_channel(e);
   EXPECT_EQ(worst.ratio, 0.7);

@@ -78,7 +78,7 @@ void trace_texel_rows(const TracerData& data, const Emitters& emitters, const ra
           ++sampler.index;
         }
         for (std::size_t g = 0; g < maps.size(); ++g) {
-          image::Image& image = maps[g].faces[static_cast<std::size_t>(face)];
+          image::Image& image = maps[g].faces[face];
           image.set_rgb(x, y, image.rgb(x, y) + sums.sum(g) * mean_scale);
         }
       }
@@ -140,7 +140,7 @@ void splat_ball(const TracerData& data, const GhostEmitters::Ball& ball, int ind
     const int x = texel(point.s), y = texel(point.t);
     const auto value =
         static_cast<float>(static_cast<double>(share) / texel_solid_angle(x, y, request.face_size));
-    image::Image& image = map.faces[static_cast<std::size_t>(point.face)];
+    image::Image& image = map.faces[point.face];
     image.set_rgb(x, y, image.rgb(x, y) + value * through);
     if (sink) sink(chunk, {index, direction, -direction, share * through});
   }

@@ -50,12 +50,11 @@ std::vector<Pane> find_panes(const ShadedGeometry& geometry) {
   const scene::Scene& scene = geometry.scene();
   const SceneParts& layout = geometry.layout();
   for (const int i : layout.part(0).instances) {
-    const scene::Instance& instance = scene.instances[static_cast<std::size_t>(i)];
+    const scene::Instance& instance = scene.instances[i];
     const int m = scene::instance_material(scene, instance);
-    if (m < 0 || !geometry.glass(i) || scene.materials[static_cast<std::size_t>(m)].thickness > 0) continue;
-    const mat4 world =
-        instance.node < 0 ? mat4(1) : layout.frames.to_frame[static_cast<std::size_t>(instance.node)];
-    const scene::Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+    if (m < 0 || !geometry.glass(i) || scene.materials[m].thickness > 0) continue;
+    const mat4 world = instance.node < 0 ? mat4(1) : layout.frames.to_frame[instance.node];
+    const scene::Mesh& mesh = scene.meshes[instance.mesh];
     const std::size_t first = panes.size();
     for (std::uint32_t t = 0; t < mesh.triangles.size() && panes.size() - first <= most_planes; ++t) {
       const auto corner = [&](int k) { return vec3(world * vec4(mesh.positions[mesh.triangles[t][k]], 1)); };

@@ -22,7 +22,7 @@ bool has_found_by_rays(const scene::Scene& scene) {
   for (const scene::Instance& instance : scene.instances) {
     if (instance.mesh < 0) continue;
     const int material = scene::instance_material(scene, instance);
-    if (material >= 0 && scene.materials[static_cast<std::size_t>(material)].emissive()) return true;
+    if (material >= 0 && scene.materials[material].emissive()) return true;
   }
   return false;
 }

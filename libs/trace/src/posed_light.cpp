@@ -45,14 +45,14 @@ void PosedLight::list_emitters() {
   for (std::vector<GroupEmitter>& group : groups_) group.clear();
   for (int i = 0; i < lights_.emitter_count(); ++i) {
     const shading::Emitter emitter = lights_.emitter(i);
-    groups_[static_cast<std::size_t>(emitter.group)].push_back({i, emitter});
+    groups_[emitter.group].push_back({i, emitter});
   }
 }
 
 const std::vector<PosedLight::GroupEmitter>& PosedLight::emitters_of(int group) const {
   require(group >= 0 && static_cast<std::size_t>(group) < groups_.size(), "light group",
           "there is none of that index");
-  return groups_[static_cast<std::size_t>(group)];
+  return groups_[group];
 }
 
 PosedLight::Receiver PosedLight::receiver(const rays::SurfacePoint& point) const {

@@ -33,7 +33,7 @@ class PixelSums {
       return;
     }
     if (group < 0) return;
-    groups_[static_cast<std::size_t>(group)] += value;
+    groups_[group] += value;
     (depth <= 1 ? direct_ : indirect_) += value;
   }
 
@@ -79,8 +79,8 @@ class PixelSums {
 
  private:
   bool moves(const Hit& hit) const {
-    const int node = scene_.instances[static_cast<std::size_t>(hit.instance)].node;
-    return node >= 0 && scene_.nodes[static_cast<std::size_t>(node)].movable;
+    const int node = scene_.instances[hit.instance].node;
+    return node >= 0 && scene_.nodes[node].movable;
   }
 
   const scene::Scene& scene_;

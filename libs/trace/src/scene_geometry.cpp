@@ -15,7 +15,7 @@ std::atomic<std::uint64_t> build_count{0};
 
 const scene::Material* material_of(const scene::Scene& scene, const scene::Instance& instance) {
   const int material = scene::instance_material(scene, instance);
-  return material < 0 ? nullptr : &scene.materials[static_cast<std::size_t>(material)];
+  return material < 0 ? nullptr : &scene.materials[material];
 }
 
 /// Whether rays may pass some of it.
@@ -23,8 +23,7 @@ bool is_filtered(const scene::Scene& scene, const scene::Instance& instance) {
   const scene::Material* m = material_of(scene, instance);
   if (m && m->is_glass()) return true;
   if (!m || m->alpha_mode == scene::AlphaMode::opaque) return false;
-  return m->alpha < 1 || m->base_color_texture.texture >= 0 ||
-         !scene.meshes[static_cast<std::size_t>(instance.mesh)].colors.empty();
+  return m->alpha < 1 || m->base_color_texture.texture >= 0 || !scene.meshes[instance.mesh].colors.empty();
 }
 
 bool uses_uv_set(const scene::Scene& scene, const scene::Instance& instance, int set) {
@@ -105,16 +104,14 @@ void SceneGeometry::Data::build(std::uint64_t flatten_limit) {
   for (std::size_t i = 0; i < instances.size(); ++i) {
     const scene::Instance& instance = scene.instances[i];
     InstanceGeometry& geometry = instances[i];
-    geometry.mesh = &scene.meshes[static_cast<std::size_t>(instance.mesh)];
+    geometry.mesh = &scene.meshes[instance.mesh];
     if (geometry.mesh->triangles.empty()) continue;
-    if (instance.node >= 0)
-      geometry.to_frame = layout.frames.to_frame[static_cast<std::size_t>(instance.node)];
+    if (instance.node >= 0) geometry.to_frame = layout.frames.to_frame[instance.node];
     const mat3 linear(geometry.to_frame);
     const float det = glm::determinant(linear);
     const bool singular = !(std::abs(det) > 0) || !std::isfinite(1 / det);
     geometry.normal_matrix = singular ? linear : glm::transpose(glm::inverse(linear));
-    geometry.shared =
-        !singular && copied > flatten_limit && uses[static_cast<std::size_t>(instance.mesh)] > 1;
+    geometry.shared = !singular && copied > flatten_limit && uses[instance.mesh] > 1;
     geometry.filtered = is_filtered(scene, instance);
     filters |= geometry.filtered;
     geometry.shared ? add_shared(i) : add_flat(i);
@@ -141,8 +138,8 @@ void SceneGeometry::Data::add_flat(std::size_t i) {
   const scene::Instance& instance = scene.instances[i];
   const bool uv_sets[2] = {uses_uv_set(scene, instance, 0), uses_uv_set(scene, instance, 1)};
   g.records = TriangleRecords(*g.mesh, g.vertices, g.to_frame, g.normal_matrix, uv_sets);
-  attach(parts[static_cast<std::size_t>(layout.instance_part[i])].get(),
-         new_triangles(device.get(), *g.mesh, g.vertices, g.filtered), i);
+  attach(parts[layout.instance_part[i]].get(), new_triangles(device.get(), *g.mesh, g.vertices, g.filtered),
+         i);
 }
 
 void SceneGeometry::Data::add_shared(std::size_t i) {
@@ -164,7 +161,7 @@ void SceneGeometry::Data::add_shared(std::size_t i) {
   RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(geometry, shared.scene.get());
   rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &g.to_frame);
-  attach(parts[static_cast<std::size_t>(layout.instance_part[i])].get(), geometry, i);
+  attach(parts[layout.instance_part[i]].get(), geometry, i);
 }
 
 bool SceneGeometry::Data::fits(const scene::Scene& other) const {

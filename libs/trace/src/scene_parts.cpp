@@ -10,12 +10,11 @@ namespace {
 std::vector<int> animated_ancestors(const scene::Scene& scene) {
   std::vector<int> nearest(scene.nodes.size(), -1);
   for (const scene::Animation& animation : scene.animations) {
-    for (const scene::AnimationChannel& channel : animation.channels)
-      nearest[static_cast<std::size_t>(channel.node)] = channel.node;
+    for (const scene::AnimationChannel& channel : animation.channels) nearest[channel.node] = channel.node;
   }
   for (std::size_t i = 0; i < nearest.size(); ++i) {
     const int parent = scene.nodes[i].parent;
-    if (nearest[i] < 0 && parent >= 0) nearest[i] = nearest[static_cast<std::size_t>(parent)];
+    if (nearest[i] < 0 && parent >= 0) nearest[i] = nearest[parent];
   }
   return nearest;
 }
@@ -24,9 +23,9 @@ scene::Bounds bounds_of(const scene::Scene& scene, const std::vector<int>& insta
                         const std::vector<mat4>& matrices) {
   scene::Bounds bounds;
   for (const int i : instances) {
-    const scene::Instance& instance = scene.instances[static_cast<std::size_t>(i)];
-    const scene::Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-    const mat4 m = instance.node < 0 ? mat4(1) : matrices[static_cast<std::size_t>(instance.node)];
+    const scene::Instance& instance = scene.instances[i];
+    const scene::Mesh& mesh = scene.meshes[instance.mesh];
+    const mat4 m = instance.node < 0 ? mat4(1) : matrices[instance.node];
     for (const uvec3& triangle : mesh.triangles) {
       for (int k = 0; k < 3; ++k) bounds.add(vec3(m * vec4(mesh.positions[triangle[k]], 1)));
     }
@@ -45,8 +44,7 @@ NodeFrames node_frames(const scene::Scene& scene) {
       continue;
     }
     const mat4 local = node.matrix ? *node.matrix : node.local.matrix();
-    frames.to_frame.push_back(
-        node.parent < 0 ? local : frames.to_frame[static_cast<std::size_t>(node.parent)] * local);
+    frames.to_frame.push_back(node.parent < 0 ? local : frames.to_frame[node.parent] * local);
   }
   return frames;
 }
@@ -54,7 +52,7 @@ NodeFrames node_frames(const scene::Scene& scene) {
 SceneParts::SceneParts(const scene::Scene& scene) : frames(node_frames(scene)) {
   // Make a part of every animated node that carries instances.
   const auto carrier = [&](const scene::Instance& instance) {
-    return instance.node < 0 ? -1 : frames.carrier[static_cast<std::size_t>(instance.node)];
+    return instance.node < 0 ? -1 : frames.carrier[instance.node];
   };
   std::vector<int> carriers = {-1};
   for (const scene::Instance& instance : scene.instances) carriers.push_back(carrier(instance));
@@ -63,7 +61,7 @@ SceneParts::SceneParts(const scene::Scene& scene) : frames(node_frames(scene)) {
   for (const int node : carriers) {
     ScenePart part;
     part.node = node;
-    part.name = node < 0 ? "static" : scene.nodes[static_cast<std::size_t>(node)].name;
+    part.name = node < 0 ? "static" : scene.nodes[node].name;
     parts.push_back(std::move(part));
   }
 
@@ -75,7 +73,7 @@ SceneParts::SceneParts(const scene::Scene& scene) : frames(node_frames(scene)) {
   for (const int node : frames.carrier) node_part.push_back(part_of(node));
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     instance_part.push_back(part_of(carrier(scene.instances[i])));
-    parts[static_cast<std::size_t>(instance_part[i])].instances.push_back(static_cast<int>(i));
+    parts[instance_part[i]].instances.push_back(static_cast<int>(i));
   }
   for (ScenePart& part : parts) part.bounds = bounds_of(scene, part.instances, frames.to_frame);
 }
@@ -83,21 +81,20 @@ SceneParts::SceneParts(const scene::Scene& scene) : frames(node_frames(scene)) {
 const ScenePart& SceneParts::part(int index) const {
   require(index >= 0 && static_cast<std::size_t>(index) < parts.size(), "part",
           "there is none of that index");
-  return parts[static_cast<std::size_t>(index)];
+  return parts[index];
 }
 
 std::vector<mat4> SceneParts::poses(const scene::Scene& scene, float time) const {
   const std::vector<mat4> world = scene::world_matrices(scene, time);
   std::vector<mat4> poses;
-  for (const ScenePart& part : parts)
-    poses.push_back(part.node < 0 ? mat4(1) : world[static_cast<std::size_t>(part.node)]);
+  for (const ScenePart& part : parts) poses.push_back(part.node < 0 ? mat4(1) : world[part.node]);
   return poses;
 }
 
 void SceneParts::node_matrices(std::span<const mat4> poses, std::vector<mat4>& world) const {
   world = frames.to_frame;
   for (std::size_t i = 0; i < world.size(); ++i) {
-    if (node_part[i] > 0) world[i] = poses[static_cast<std::size_t>(node_part[i])] * world[i];
+    if (node_part[i] > 0) world[i] = poses[node_part[i]] * world[i];
   }
 }
 

@@ -73,7 +73,7 @@ ShadedGeometry::ShadedGeometry(SharedGeometry geometry, const scene::Scene& scen
     InstanceShading& shading = shading_.emplace_back();
     shading.material = scene::instance_material(scene, instance);
     if (shading.material < 0) continue;
-    const scene::Material& material = scene.materials[static_cast<std::size_t>(shading.material)];
+    const scene::Material& material = scene.materials[shading.material];
     shading.emissive = material.emissive(), shading.double_sided = material.double_sided;
     shading.glass = material.is_glass();
   }
@@ -88,7 +88,7 @@ bool ShadedGeometry::intersect(int part, const Ray& ray, const Passage& passage,
   r.ray.tnear = ray.t_min, r.ray.tfar = ray.t_max;
   r.ray.time = 0, r.ray.mask = ~0u, r.ray.id = 0, r.ray.flags = 0;
   r.hit.geomID = r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(data_->parts[static_cast<std::size_t>(part)].get(), &context.base, &r);
+  rtcIntersect1(data_->parts[part].get(), &context.base, &r);
   if (met_glass) *met_glass |= context.met_glass;
   if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
   hit = {instance_of(r.hit.geomID, r.hit.instID[0]), r.hit.primID, {r.hit.u, r.hit.v}, r.ray.tfar};
@@ -102,7 +102,7 @@ bool ShadedGeometry::occluded(int part, const Ray& ray, const Passage& passage, 
   r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
   r.tnear = ray.t_min, r.tfar = ray.t_max;
   r.time = 0, r.mask = ~0u, r.id = 0, r.flags = 0;
-  rtcOccluded1(data_->parts[static_cast<std::size_t>(part)].get(), &context.base, &r);
+  rtcOccluded1(data_->parts[part].get(), &context.base, &r);
   met_glass |= context.met_glass;
   return r.tfar < 0;
 }

@@ -36,9 +36,9 @@ class ShadedGeometry {
   /// Whether a ray along `direction` hit the back of a one-sided surface.
   bool is_back(const Hit& hit, const vec3& direction) const;
 
-  int part_of(int instance) const { return data_->layout.instance_part[static_cast<std::size_t>(instance)]; }
-  bool emissive(int instance) const { return shading_[static_cast<std::size_t>(instance)].emissive; }
-  bool glass(int instance) const { return shading_[static_cast<std::size_t>(instance)].glass; }
+  int part_of(int instance) const { return data_->layout.instance_part[instance]; }
+  bool emissive(int instance) const { return shading_[instance].emissive; }
+  bool glass(int instance) const { return shading_[instance].glass; }
   /// Whether any surface may let rays pass.
   bool filters() const { return data_->filters; }
   const SceneParts& layout() const { return data_->layout; }
@@ -50,12 +50,8 @@ class ShadedGeometry {
     int material = -1;
     bool emissive = false, double_sided = false, glass = false;
   };
-  const InstanceGeometry& geometry_of(const Hit& hit) const {
-    return data_->instances[static_cast<std::size_t>(hit.instance)];
-  }
-  const InstanceShading& shading_of(const Hit& hit) const {
-    return shading_[static_cast<std::size_t>(hit.instance)];
-  }
+  const InstanceGeometry& geometry_of(const Hit& hit) const { return data_->instances[hit.instance]; }
+  const InstanceShading& shading_of(const Hit& hit) const { return shading_[hit.instance]; }
 
   SharedGeometry geometry_;
   const SceneGeometry::Data* data_;

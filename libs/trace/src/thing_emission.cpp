@@ -58,7 +58,7 @@ Ball ball_around(const scene::Scene& thing, const std::vector<mat4>& world,
   scene::Bounds bounds = scene::world_bounds(thing, world);
   std::vector<vec3> lamps;
   for (const scene::Light& light : thing.lights) {
-    lamps.emplace_back(world[static_cast<std::size_t>(light.node)][3]);
+    lamps.emplace_back(world[light.node][3]);
     bounds.add(lamps.back() - light.radius), bounds.add(lamps.back() + light.radius);
   }
   if (bounds.empty()) return {};
@@ -67,9 +67,8 @@ Ball ball_around(const scene::Scene& thing, const std::vector<mat4>& world,
     ball.radius = std::max(ball.radius, glm::distance(p, ball.center) + r);
   };
   for (const scene::Instance& instance : thing.instances) {
-    const mat4& matrix = world[static_cast<std::size_t>(instance.node)];
-    for (const vec3& p : thing.meshes[static_cast<std::size_t>(instance.mesh)].positions)
-      reach(vec3(matrix * vec4(p, 1)), 0);
+    const mat4& matrix = world[instance.node];
+    for (const vec3& p : thing.meshes[instance.mesh].positions) reach(vec3(matrix * vec4(p, 1)), 0);
   }
   for (std::size_t i = 0; i < lamps.size(); ++i) reach(lamps[i], thing.lights[i].radius);
   return ball;
@@ -148,10 +147,10 @@ ThingEmission thing_emission(const scene::Scene& scene, int node, float time,
   scene::Scene thing = scene::thing_alone(scene, node);
   for (scene::Light& light : thing.lights) light.range = 0;  // seen from far away
   const std::vector<mat4> world = scene::world_matrices(thing, time);
-  const mat4& placed = world[static_cast<std::size_t>(node)];
+  const mat4& placed = world[node];
   const mat3 axes = scene::emission_axes(placed);
   const Ball ball = ball_around(thing, world, std::nullopt);
-  const std::string name = fmt::format("node \"{}\"", scene.nodes[static_cast<std::size_t>(node)].name);
+  const std::string name = fmt::format("node \"{}\"", scene.nodes[node].name);
   if (!(ball.radius > 0) && thing.lights.empty())
     throw Error(name, "nothing stands there that could send out light");
 
@@ -179,8 +178,7 @@ std::vector<std::string> buried_lamps(const scene::Scene& scene, const rays::Rad
   const std::vector<mat4> world = scene::world_matrices(scene, time);
   for (const scene::Light& light : scene.lights) {
     if (light.type != scene::LightType::sphl) continue;
-    if (source.backface_fraction(vec3(world[static_cast<std::size_t>(light.node)][3])) > 0.5f)
-      names.push_back(light.name);
+    if (source.backface_fraction(vec3(world[light.node][3])) > 0.5f) names.push_back(light.name);
   }
   return names;
 }

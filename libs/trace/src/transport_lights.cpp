@@ -24,7 +24,7 @@ const std::vector<std::string>& TransportScene::light_names() const {
 int TransportScene::light_group_of(int light) const {
   require(light >= 0 && static_cast<std::size_t>(light) < data_->light_group.size(), "light",
           "there is none of that index");
-  return data_->light_group[static_cast<std::size_t>(light)];
+  return data_->light_group[light];
 }
 
 bool TransportScene::group_emits_from(int group, int part) const {

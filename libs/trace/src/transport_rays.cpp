@@ -29,10 +29,9 @@ vec2 square_to_triangle(const vec2& u) {
 /// Points on triangle `index` of an instance: area times density of them, at least one.
 void sample_triangle(const TransportData& data, int instance_index, std::uint32_t index, double density,
                      std::vector<rays::PartPoint>& points) {
-  const scene::Instance& instance = data.scene.instances[static_cast<std::size_t>(instance_index)];
-  const scene::Mesh& mesh = data.scene.meshes[static_cast<std::size_t>(instance.mesh)];
-  const mat4 m =
-      instance.node < 0 ? mat4(1) : data.layout().frames.to_frame[static_cast<std::size_t>(instance.node)];
+  const scene::Instance& instance = data.scene.instances[instance_index];
+  const scene::Mesh& mesh = data.scene.meshes[instance.mesh];
+  const mat4 m = instance.node < 0 ? mat4(1) : data.layout().frames.to_frame[instance.node];
   const uvec3& corners = mesh.triangles[index];
   const vec3 p0(m * vec4(mesh.positions[corners.x], 1));
   const vec3 e1 = vec3(m * vec4(mesh.positions[corners.y], 1)) - p0;
@@ -42,8 +41,7 @@ void sample_triangle(const TransportData& data, int instance_index, std::uint32_
   if (!(length > 0 && std::isfinite(length))) return;
   const vec3 front = (glm::determinant(mat3(m)) < 0 ? -1 / length : 1 / length) * cross;
   const int material = scene::instance_material(data.scene, instance);
-  const bool double_sided =
-      material >= 0 && data.scene.materials[static_cast<std::size_t>(material)].double_sided;
+  const bool double_sided = material >= 0 && data.scene.materials[material].double_sided;
 
   const double count = std::ceil(0.5 * static_cast<double>(length) * density);
   if (!(static_cast<double>(points.size()) + count < 1e8))
@@ -128,8 +126,8 @@ std::vector<rays::PartPoint> TransportScene::sample_part(int part_index,
   const ScenePart& part = data_->part(part_index);
   std::vector<rays::PartPoint> points;
   for (const int i : part.instances) {
-    const scene::Instance& instance = data_->scene.instances[static_cast<std::size_t>(i)];
-    const auto triangles = data_->scene.meshes[static_cast<std::size_t>(instance.mesh)].triangles.size();
+    const scene::Instance& instance = data_->scene.instances[i];
+    const auto triangles = data_->scene.meshes[instance.mesh].triangles.size();
     for (std::uint32_t t = 0; t < triangles; ++t)
       sample_triangle(*data_, i, t, points_per_square_metre, points);
   }

@@ -79,7 +79,7 @@ TEST(Camera, CubeStripOfARenderMatchesTheProbesCube) {
     for (int y = 0; y < 16; ++y) {
       for (int x = 0; x < 16; ++x) {
         const float a = state.color.rgb(16 * face + x, y).y;
-        const float b = probe.emitted.faces[static_cast<std::size_t>(face)].rgb(x, y).y;
+        const float b = probe.emitted.faces[face].rgb(x, y).y;
         // Texels at the box's edge have noise; a turned face would differ by 2 in dozens of texels.
         EXPECT_NEAR(a, b, 0.35f);
       }

@@ -71,11 +71,9 @@ TEST(Determinism, OneThreadAndTwoGiveTheSameCubes) {
     const Threads threads(t + 1);
     gen[t] = tracer.incident_radiance(request, {});
     sums[t].resize(rays::RadianceSource::ghost_chunk_count);
-    viz[t] = tracer.ghost_radiance(request, ghosts,
-                                   [&, t](int chunk, const rays::GhostPath& path) {
-                                     sums[t][static_cast<std::size_t>(chunk)] += path.throughput;
-                                   },
-                                   {});
+    viz[t] = tracer.ghost_radiance(
+        request, ghosts,
+        [&, t](int chunk, const rays::GhostPath& path) { sums[t][chunk] += path.throughput; }, {});
   }
   for (std::size_t f = 0; f < 6; ++f) {
     for (std::size_t g = 0; g < gen[0].size(); ++g) {

@@ -81,7 +81,7 @@ scene::Scene many_boxes() {
   const int first = add_object(scene, scene::make_sphere(0.3f, 12, 6), lambertian(vec3(0.7f, 0.5f, 0.2f)),
                                "ball", add_node(scene, "ball", vec3(-0.6f, 0, 0), looking(vec3(1, 2, 3))));
   for (int i = 0; i < 5; ++i) {
-    scene::Instance copy = scene.instances[static_cast<std::size_t>(first)];
+    scene::Instance copy = scene.instances[first];
     copy.node = add_node(scene, "copy", vec3(-0.5f + 0.3f * static_cast<float>(i), 0.4f, -0.2f),
                          looking(vec3(i, 1, -2)));
     scene.nodes.back().local.scale = vec3(1, i == 2 ? -0.5f : 0.6f, 0.8f);
@@ -93,21 +93,20 @@ scene::Scene many_boxes() {
 
 /// Of the corners of a triangle in the world.
 float largest_coordinate(const scene::Scene& scene, const std::vector<mat4>& world, const trace::Hit& hit) {
-  const scene::Instance& instance = scene.instances[static_cast<std::size_t>(hit.instance)];
-  const scene::Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+  const scene::Instance& instance = scene.instances[hit.instance];
+  const scene::Mesh& mesh = scene.meshes[instance.mesh];
   float largest = 0;
   for (int i = 0; i < 3; ++i) {
     const vec3& corner = mesh.positions[mesh.triangles[hit.triangle][i]];
-    largest = std::max(largest, trace::max_abs_component(
-                                    vec3(world[static_cast<std::size_t>(instance.node)] * vec4(corner, 1))));
+    largest = std::max(largest, trace::max_abs_component(vec3(world[instance.node] * vec4(corner, 1))));
   }
   return largest;
 }
 
 /// Of an instance's origin.
 float world_distance(const scene::Scene& scene, const std::vector<mat4>& world, const trace::Hit& hit) {
-  const int node = scene.instances[static_cast<std::size_t>(hit.instance)].node;
-  return trace::max_abs_component(vec3(world[static_cast<std::size_t>(node)][3]));
+  const int node = scene.instances[hit.instance].node;
+  return trace::max_abs_component(vec3(world[node][3]));
 }
 
 TEST(Geometry, InstancedAndFlattenedScenesAreTheSame) {
@@ -247,7 +246,7 @@ TEST(Geometry, BackfaceFractionTellsInsideFromOutside) {
   add_room(scene, lambertian(vec3(0.5f)));
   const int ball = add_object(scene, scene::make_sphere(0.3f, 12, 6), lambertian(vec3(0.5f)), "ball",
                               add_node(scene, "ball", vec3(-0.6f, 0, 0)));
-  scene::Instance mirrored = scene.instances[static_cast<std::size_t>(ball)];
+  scene::Instance mirrored = scene.instances[ball];
   mirrored.node = add_node(scene, "mirrored", vec3(0.5f, 0.5f, 0));
   scene.nodes.back().local.scale = vec3(1, -0.5f, 0.8f);
   scene.instances.push_back(mirrored);

@@ -76,7 +76,7 @@ TEST(Ghost, SmallSphereHasLowNoisePerTexel) {
           if (i == 0 && glm::dot(cube_direction({f, s, t}), axis) < 0.99f) break;
         }
         const double coverage = inside / 1024.0;
-        error += std::abs(static_cast<double>(map.faces[static_cast<std::size_t>(f)].at(x, y)[0]) - coverage);
+        error += std::abs(static_cast<double>(map.faces[f].at(x, y)[0]) - coverage);
         total += coverage;
       }
     }
@@ -153,7 +153,7 @@ TEST(Ghost, SinkReceivesWhatTheMapsHold) {
   unit.fill(true);
   const auto sink = [&](int chunk, const rays::GhostPath& path) {
     const auto c = static_cast<std::size_t>(chunk);
-    sums[c][static_cast<std::size_t>(path.emitter)] += static_cast<double>(path.throughput.x);
+    sums[c][path.emitter] += static_cast<double>(path.throughput.x);
     unit[c] = unit[c] && std::abs(glm::length(path.direction) - 1) < 1e-5f &&
               std::abs(glm::length(path.emission) - 1) < 1e-5f;
   };
@@ -172,7 +172,7 @@ TEST(Ghost, EmissionDirectionOfADirectPathIsOppositeToTheView) {
   std::array<float, rays::RadianceSource::ghost_chunk_count> worst;
   worst.fill(-1);
   const auto sink = [&](int chunk, const rays::GhostPath& path) {
-    float& w = worst[static_cast<std::size_t>(chunk)];
+    float& w = worst[chunk];
     w = std::max(w, glm::dot(path.direction, path.emission));
   };
   (void)trace::PathTracer(empty_space).ghost_radiance({vec3(0), 8, {1, 1, 4, 7}}, ghosts, sink, {});
@@ -195,7 +195,7 @@ TEST(Ghost, BallsAreChosenByTheLightThatTheyMayGive) {
   for (int i = 0; i < choices; ++i) {
     const auto sample = balls.sample(floor, (static_cast<float>(i) + 0.5f) / choices, vec2(0.5f));
     ASSERT_TRUE(sample);
-    ++chosen[static_cast<std::size_t>(sample->group)];
+    ++chosen[sample->group];
   }
   for (std::size_t j = 0; j < 4; ++j)
     EXPECT_NEAR(chosen[j] / double{choices}, light[j] / (light[0] + light[1] + light[2]), 2e-5) << j;

@@ -97,7 +97,7 @@ TEST(KeptLight, EqualsLightThatIsNotKept) {
     std::vector<vec3> truth(points.size());
     light->irradiance(group, points, truth);
     for (std::size_t p = 0; p < points.size(); ++p) {
-      SCOPED_TRACE(exact.light_groups()[static_cast<std::size_t>(group)] + std::to_string(p));
+      SCOPED_TRACE(exact.light_groups()[group] + std::to_string(p));
       // Both have noise; that of 1024 samples is what one sees in records.
       for (glm::length_t c = 0; c < 3; ++c)
         EXPECT_NEAR(kept.at(points[p], group)[3][c], truth[p][c], 0.015f * truth[p][c] + 1e-6f);

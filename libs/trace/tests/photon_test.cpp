@@ -128,7 +128,7 @@ TEST_P(PhotonsOf, LandAsIrradianceSays) {
   const trace::TransportScene source(scene, {.light_samples = 256, .environment_samples = 1024});
   const auto lights = source.direct_light(source.lights(0), std::vector<mat4>{mat4(1)});
   int group = 0;
-  while (source.light_groups()[static_cast<std::size_t>(group)] != "lamp") ++group;
+  while (source.light_groups()[group] != "lamp") ++group;
 
   // What each cell receives, by midpoints.
   constexpr int q = 8;
@@ -146,9 +146,8 @@ TEST_P(PhotonsOf, LandAsIrradianceSays) {
   std::vector<double> received(cells * cells);
   for (int i = 0; i < cells * q; ++i) {
     for (int k = 0; k < cells * q; ++k) {
-      received[static_cast<std::size_t>(i / q * cells + k / q)] +=
-          static_cast<double>(irradiance[static_cast<std::size_t>(i * cells * q + k)].g) *
-          static_cast<double>(step * step);
+      received[i / q * cells + k / q] +=
+          static_cast<double>(irradiance[i * cells * q + k].g) * static_cast<double>(step * step);
     }
   }
 

@@ -14,7 +14,7 @@ namespace {
 struct ByDepth {
   std::array<vec3, 8> sums{};
   void add(int depth, int, const vec3& value, const vec3&) {
-    if (depth < 8) sums[static_cast<std::size_t>(depth)] += value;
+    if (depth < 8) sums[depth] += value;
   }
   void first_hit(const shading::Surface&, const vec3&, const trace::Ray&, const trace::Hit&) {}
 };
@@ -36,8 +36,7 @@ TEST(Roulette, DarkGlowingRoomGivesTheGeometricSeriesAtEveryDepth) {
                  {hash_combine(11, batch), s}, options, task, light);
     }
     for (std::size_t depth = 0; depth < means.size(); ++depth) {
-      for (int c = 0; c < 3; ++c)
-        means[depth][static_cast<std::size_t>(c)].add(static_cast<double>(light.sums[depth][c]) / paths);
+      for (int c = 0; c < 3; ++c) means[depth][c].add(static_cast<double>(light.sums[depth][c]) / paths);
     }
   }
   // At depth 3 three paths of a thousand are left, 200 in all; at depth 4 some 30.
@@ -46,7 +45,7 @@ TEST(Roulette, DarkGlowingRoomGivesTheGeometricSeriesAtEveryDepth) {
       const double expected = static_cast<double>(emission[c]) *
                               std::pow(static_cast<double>(albedo[c]), static_cast<double>(depth));
       // Float sums of 400 equal numbers.
-      EXPECT_TRUE(mean_is(means[depth][static_cast<std::size_t>(c)], expected, {1e-3, 15}, 2e-5 * expected))
+      EXPECT_TRUE(mean_is(means[depth][c], expected, {1e-3, 15}, 2e-5 * expected))
           << "depth " << depth << ", channel " << c;
     }
   }

@@ -88,7 +88,7 @@ scene::Scene many_balls() {
                                "ball", add_node(scene, "ball", vec3(-0.6f, 0.3f, 0)));
   const int arm = 2;
   for (const int parent : {-1, arm, 1}) {
-    scene::Instance copy = scene.instances[static_cast<std::size_t>(first)];
+    scene::Instance copy = scene.instances[first];
     copy.node = add_node(scene, "copy", vec3(0.4f, 0.1f, -0.2f), looking(vec3(1, 1, -2)));
     scene.nodes.back().parent = parent;
     scene.nodes.back().local.scale = vec3(1, parent < 0 ? -0.5f : 0.6f, 0.8f);

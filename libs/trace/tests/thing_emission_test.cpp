@@ -167,7 +167,7 @@ TEST(ThingEmission, LightsWallsAsTheThingItselfBeyondTwoOfItsRadii) {
   const ThingEmission seen = thing_emission(lit, node, 0, {.image_size = 16});
   EXPECT_LT(seen.radius, radius);
   const scene::Scene stand_in = stand_in_for(lit, seen, node);
-  const vec3 center(scene::world_matrices(lit)[static_cast<std::size_t>(node)] * vec4(seen.center, 1));
+  const vec3 center(scene::world_matrices(lit)[node] * vec4(seen.center, 1));
   const auto points = points_of_walls(center, {-2, -1.5f, -2}, {2, 1.5f, 2});
   for (const rays::SurfacePoint& point : points) EXPECT_GT(glm::distance(point.position, center), 2 * radius);
   rays::PathParams path{.max_depth = 8, .spp = 1024};
@@ -234,8 +234,7 @@ TEST(ThingEmission, WavesProjectTheirLightOntoWallsAsTheirSphlDoes) {
     const ThingEmission seen =
         thing_emission(room, tank, sphl_time, {.image_size = 16, .path = {.max_depth = depth, .spp = 4}});
     const scene::Scene stand_in = stand_in_for(room, seen, tank);
-    const vec3 center(scene::world_matrices(room, time)[static_cast<std::size_t>(tank)] *
-                      vec4(seen.center, 1));
+    const vec3 center(scene::world_matrices(room, time)[tank] * vec4(seen.center, 1));
     auto points = points_of_walls(center, {-2, 0, -2}, {2, 2.6f, 2});
     std::erase_if(
         points, [&](const rays::SurfacePoint& p) { return p.position.y < center.y; });  // the stand's shadow

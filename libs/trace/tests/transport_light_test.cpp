@@ -210,7 +210,7 @@ std::vector<SurfacePoint> seen_points(const trace::TransportScene& source, const
     float nearest = std::numeric_limits<float>::infinity();
     SurfacePoint point;
     for (int p = 0; p < source.part_count(); ++p) {
-      const mat4& pose = poses[static_cast<std::size_t>(p)];
+      const mat4& pose = poses[p];
       const mat4 from_world = glm::inverse(pose);
       const rays::RayQuery ray{vec3(from_world * vec4(eye, 1)), mat3(from_world) * direction};
       rays::RayHit hit;

@@ -63,7 +63,7 @@ TEST(TransportScene, TwoRoomsHaveOneDoor) {
   EXPECT_NEAR(leaf.max.x - leaf.min.x, 0.04f, 1e-6f);
   EXPECT_FALSE(source.part_bounds(0).empty());
   EXPECT_EQ(source.light_names(), std::vector<std::string>{"lamp"});
-  EXPECT_EQ(source.light_groups()[static_cast<std::size_t>(source.light_group_of(0))], "lamp");
+  EXPECT_EQ(source.light_groups()[source.light_group_of(0)], "lamp");
   EXPECT_FALSE(source.group_emits_from(0, 0));
   EXPECT_FALSE(source.group_emits_from(0, 1));
 }
@@ -135,8 +135,8 @@ void parts_make_the_whole(scene::Scene scene) {
         vec3 origin;
         const shading::Surface surface = whole.surface(hit, -glm::normalize(ray.direction), origin);
         EXPECT_NEAR(glm::distance(in_world[i].normal, surface.geometric_normal), 0, 1e-4f);
-        const int node = scene.instances[static_cast<std::size_t>(hit.instance)].node;
-        const bool is_movable = scene.nodes[static_cast<std::size_t>(node)].movable;
+        const int node = scene.instances[hit.instance].node;
+        const bool is_movable = scene.nodes[node].movable;
         differ += std::abs(luminance(surface.emission) - luminance(nearest[i].emission)) > 1e-6f ||
                   std::abs(luminance(surface.bsdf.diffuse) - luminance(nearest[i].albedo)) > 1e-5f ||
                   whole.is_back(hit, ray.direction) != nearest[i].back || (moves[i] != 0) != is_movable;

@@ -83,7 +83,7 @@ struct BounceOperator::Data {
     known[ray] = {patch.index, network.seen_distance()[ray], false};
     if (patch.index == no_patch) return;
     const Surfel& surfel = surfel_of(patch.index);
-    const mat3 turn(network.poses()[static_cast<std::size_t>(surfel.part)]);
+    const mat3 turn(network.poses()[surfel.part]);
     const vec3 n = glm::normalize(glm::transpose(glm::inverse(turn)) * surfel.point.normal);
     const vec3 x = g.positions[ray / directions] + known[ray].distance * g.directions[ray % directions];
     bool& near_part = known[ray].near_part;
@@ -96,7 +96,7 @@ struct BounceOperator::Data {
     sh::eval_basis(params.irradiance_degree, n, at_hit);
     for (int l = 0; l <= params.irradiance_degree; ++l) {
       for (int k = l * l; k < (l + 1) * (l + 1); ++k)
-        at_hit[static_cast<std::size_t>(k)] *= static_cast<float>(sh::cosine_band_factor(l));
+        at_hit[k] *= static_cast<float>(sh::cosine_band_factor(l));
     }
   }
 
@@ -128,7 +128,7 @@ struct BounceOperator::Data {
                    old + static_cast<std::ptrdiff_t>(old_end));
       }
       for (std::size_t w = start; w < row.size(); ++w) {
-        std::uint8_t& is_coupled = coupled[static_cast<std::size_t>(row[w].probe)];
+        std::uint8_t& is_coupled = coupled[row[w].probe];
         edges += is_coupled ? 0 : 1;
         is_coupled = 1;
       }
@@ -143,7 +143,7 @@ struct BounceOperator::Data {
     const std::size_t count = bands();
     vec3 sum(0);
     for (std::size_t w = begin[ray]; w < begin[ray + 1]; ++w) {
-      const sh::RadianceSh& s = probes[static_cast<std::size_t>(weights[w].probe)];
+      const sh::RadianceSh& s = probes[weights[w].probe];
       vec3 e(0);
       for (std::size_t k = 0; k < count; ++k) e += basis[ray * count + k] * s.values[k];
       sum += weights[w].weight * e;
@@ -165,7 +165,7 @@ struct BounceOperator::Data {
           const SeenPatch& patch = network.seen()[ray];
           vec3 value(0);
           if (patch.index != no_patch) {
-            const vec3 e = vec3(direct[static_cast<std::size_t>(patch.index)]) + look_up(ray, from);
+            const vec3 e = vec3(direct[patch.index]) + look_up(ray, from);
             value = unpack_albedo(patch.albedo) * (1 / pi) * e;
           }
           radiance[q] = value.x, radiance[stride + q] = value.y, radiance[2 * stride + q] = value.z;

@@ -71,7 +71,7 @@ void DirectField::find(int group, const rays::DirectLight& light, std::size_t be
     for (std::size_t k = 0; k < mirrored_.size(); ++k) values_[k] += mirrored_[k];
   }
   require(std::ranges::all_of(values_, is_finite), "transport source", "its direct light is not finite");
-  std::vector<vec3>& field = groups_[static_cast<std::size_t>(group)];
+  std::vector<vec3>& field = groups_[group];
   for (std::size_t k = begin; k < end; ++k) field[which_[k]] = values_[k - begin];
 }
 

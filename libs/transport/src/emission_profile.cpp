@@ -38,8 +38,7 @@ sh::RadianceSh RelightSession::emission_profile(const vec3& center, float radius
       const Sight& sight = sights[r];
       require(sight.group < static_cast<int>(d.state.group_scales.size()), "transport source",
               "a surface glows in a group that there is not");
-      if (sight.group >= 0)
-        mean += d.state.group_scales[static_cast<std::size_t>(sight.group)] * sight.emission;
+      if (sight.group >= 0) mean += d.state.group_scales[sight.group] * sight.emission;
       if (sight.patch == no_patch || d.light.direct.empty()) continue;
       const auto p = static_cast<std::size_t>(sight.patch);
       mean += sight.albedo * (1 / pi) * vec3(d.light.direct[p] + d.light.indirect[d.network.surfel_of(p)]);

@@ -92,10 +92,9 @@ std::vector<int> visible_probes(const TransportNetwork& network, const rays::Tra
   const int count = nearest.find(point.position, near);
   std::vector<int> visible;
   for (int i = 0; i < count && static_cast<int>(visible.size()) < wanted; ++i) {
-    const int probe = near[static_cast<std::size_t>(i)].index;
+    const int probe = near[i].index;
     const vec3 from = point.position + offset * point.normal;
-    if (sees(network, source, from, network.gbuffer().positions[static_cast<std::size_t>(probe)]))
-      visible.push_back(probe);
+    if (sees(network, source, from, network.gbuffer().positions[probe])) visible.push_back(probe);
   }
   return visible;
 }
@@ -138,7 +137,7 @@ probes::PointWeights WeightFit::Data::fit(std::size_t point) const {
     const vec3 truth = lesson.points[point];
     vec3 mean(0);
     for (std::size_t i = 0; i < count; ++i) {
-      const sh::IrradianceSh& function = lesson.probes[static_cast<std::size_t>(candidates[i])];
+      const sh::IrradianceSh& function = lesson.probes[candidates[i]];
       values[i] = vec3(0);
       for (std::size_t k = 0; k < basis.size(); ++k) values[i] += basis[k] * function.values[k];
       mean += values[i] / static_cast<float>(count);

@@ -49,10 +49,10 @@ void HemisphereParts::spread(std::vector<float>& weights) const {
       for (int i = -1; i <= 1; ++i) {
         for (int j = -1; j <= 1; ++j) {
           const int from = std::clamp(ring + i, 0, rings - 1), at = (sector + j + sectors) % sectors;
-          around += before[static_cast<std::size_t>(from * sectors + at)];
+          around += before[from * sectors + at];
         }
       }
-      float& weight = weights[static_cast<std::size_t>(ring * sectors + sector)];
+      float& weight = weights[ring * sectors + sector];
       weight = 0.5f * weight + around / 18;
     }
   }

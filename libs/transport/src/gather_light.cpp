@@ -39,7 +39,7 @@ vec3 GatherLight::irradiance(const rays::SurfacePoint& at) const {
   std::vector<vec3> light(rays.size(), vec3(0));
   std::vector<rays::RayHit> hits;
   d.see(rays, hits, [&](std::size_t i, const rays::RayHit& hit, int patch) {
-    if (patch != no_patch) light[i] = hit.through * radiosity_[static_cast<std::size_t>(patch)];
+    if (patch != no_patch) light[i] = hit.through * radiosity_[patch];
   });
   vec3 sum(0);
   for (const vec3& l : light) sum += l;
@@ -51,7 +51,7 @@ vec3 GatherLight::irradiance(const rays::SurfacePoint& at) const {
          .normal = sight.normal,
          .patch = d.find_static({sight.ray.origin + sight.ray.t_max * sight.ray.direction, sight.normal}),
          .from = sight.from});
-    if (found.patch != no_patch) sum += sight.share * radiosity_[static_cast<std::size_t>(found.patch)];
+    if (found.patch != no_patch) sum += sight.share * radiosity_[found.patch];
   }
   return sum / static_cast<float>(rays_) + session_->mirrored(at);
 }

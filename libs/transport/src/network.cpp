@@ -117,7 +117,7 @@ const std::vector<mat4>& TransportNetwork::poses() const {
 }
 scene::Bounds TransportNetwork::part_world_bounds(int part) const {
   data_->check_part(part);
-  return rays::transformed(data_->source.part_bounds(part), data_->poses[static_cast<std::size_t>(part)]);
+  return rays::transformed(data_->source.part_bounds(part), data_->poses[part]);
 }
 int TransportNetwork::find(int part, const rays::SurfacePoint& point) const {
   data_->check_part(part);

@@ -22,7 +22,7 @@ constexpr std::size_t least_rays = 256;
 std::vector<scene::Bounds> swept_bounds(const rays::TransportSource& source) {
   std::vector<scene::Bounds> swept(static_cast<std::size_t>(source.part_count()));
   for (int part = 1; part < source.part_count(); ++part) {
-    scene::Bounds& total = swept[static_cast<std::size_t>(part)];
+    scene::Bounds& total = swept[part];
     const scene::Bounds box = source.part_bounds(part);
     if (box.empty()) continue;
     // Between two steps a corner may bulge out by less than it moves.
@@ -197,7 +197,7 @@ bool TransportNetwork::Data::pose_part_links(Pace& pace) {
     work.world.resize(end - first);
     for (std::size_t i = first; i < end; ++i) {
       const int part = surfels.surfels()[static_count + i / rays].part;
-      work.world[i - first] = transformed(part_links[i], poses[static_cast<std::size_t>(part)]);
+      work.world[i - first] = transformed(part_links[i], poses[part]);
     }
     see(work.world, work.hits, [&](std::size_t k, const rays::RayHit& hit, int patch) {
       const std::size_t i = first + k, slot = moving_links.size() + i, s = static_count + i / rays;

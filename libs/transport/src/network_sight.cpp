@@ -52,7 +52,7 @@ bool meets_any(const rays::RayQuery& ray, const std::vector<scene::Bounds>& boxe
 }
 
 rays::SurfacePoint TransportNetwork::Data::to_world(int part, const rays::SurfacePoint& point) const {
-  return part == 0 ? point : transformed(point, poses[static_cast<std::size_t>(part)]);
+  return part == 0 ? point : transformed(point, poses[part]);
 }
 
 rays::RayQuery TransportNetwork::Data::sample_segment(std::size_t sample) const {
@@ -104,14 +104,14 @@ int TransportNetwork::Data::find(int part, const rays::SurfacePoint& point) cons
   }
   const rays::SurfacePoint world = to_world(part, point);
   return find_nearest(part, point, [&](int s) {
-    const Surfel& surfel = surfels.surfels()[static_cast<std::size_t>(s)];
+    const Surfel& surfel = surfels.surfels()[s];
     return !blocked(surfels.segment(world, to_world(part, surfel.point), surfel.level));
   });
 }
 
 int TransportNetwork::Data::find_static(const rays::SurfacePoint& point) const {
   return find_nearest(0, point, [&](int s) {
-    const Surfel& surfel = surfels.surfels()[static_cast<std::size_t>(s)];
+    const Surfel& surfel = surfels.surfels()[s];
     const rays::RayQuery way = surfels.segment(point, surfel.point, surfel.level);
     std::uint8_t hit = 0;
     source.occluded(0, {&way, 1}, {&hit, 1});
@@ -172,7 +172,7 @@ std::optional<Resolved> TransportNetwork::Data::resolve_part(rays::RayQuery ray)
   rays::RayHit hit;
   int part = 0;
   if (!meet_part(ray, hit, part)) return std::nullopt;
-  const PlacedPart& p = placed[static_cast<std::size_t>(part - 1)];
+  const PlacedPart& p = placed[part - 1];
   const vec3 position = vec3(p.to_part * vec4(ray.origin + ray.t_max * ray.direction, 1));
   // The part's palette entries were made when the network was built.
   return Resolved{find(part, {position, hit.normal}), pack_albedo(hit.albedo),
@@ -199,7 +199,7 @@ void TransportNetwork::Data::see_one(rays::RayQuery ray, rays::RayHit& hit, int&
   int part = 0;
   if (!meet_part(ray, hit, part) && hit.escaped()) return;
   vec3 position = ray.origin + ray.t_max * ray.direction;
-  if (part > 0) position = vec3(placed[static_cast<std::size_t>(part - 1)].to_part * vec4(position, 1));
+  if (part > 0) position = vec3(placed[part - 1].to_part * vec4(position, 1));
   patch = find(part, {position, hit.normal});
 }
 

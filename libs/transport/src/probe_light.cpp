@@ -57,7 +57,7 @@ std::span<const MirroredPatch> mirrored_of(const TransportNetwork& network, std:
 
 vec3 radiance_of(const SeenPatch& patch, std::span<const Irradiance4> irradiance) {
   if (patch.index == no_patch) return vec3(0);
-  return unpack_albedo(patch.albedo) * (1 / pi) * vec3(irradiance[static_cast<std::size_t>(patch.index)]);
+  return unpack_albedo(patch.albedo) * (1 / pi) * vec3(irradiance[patch.index]);
 }
 
 void project_reflected(const TransportNetwork& network, const DirectionProjector& projector,
@@ -131,7 +131,7 @@ std::vector<sh::RadianceSh> project_emitted(const TransportNetwork& network,
       radiance[q] = value.x, radiance[stride + q] = value.y, radiance[2 * stride + q] = value.z;
       any |= value != vec3(0);
     }
-    if (any) projector.project(radiance, groups[static_cast<std::size_t>(group)]);
+    if (any) projector.project(radiance, groups[group]);
   }
   return groups;
 }

@@ -27,7 +27,7 @@ void RecordDirect::extend(const rays::DirectLight& light, std::span<const rays::
 
 void RecordDirect::add_to(std::vector<probes::RecordLight>& light, std::span<const vec3> scales) const {
   for (std::size_t i = 0; i < groups_.size(); ++i) {
-    const vec3& scale = scales[static_cast<std::size_t>(groups_[i])];
+    const vec3& scale = scales[groups_[i]];
     for (std::size_t p = 0; p < light.size(); ++p) {
       for (glm::length_t c = 0; c < 4; ++c) light[p][c] += scale * found_[i][p][c];
     }

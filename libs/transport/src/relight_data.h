@@ -273,12 +273,10 @@ struct RelightSession::Data {
   void note_changes(const scene::LightingState& wanted) {
     if (unfinished) group_dirty.assign(group_dirty.size(), true);
     for (std::size_t i = 0; i < wanted.lights.size(); ++i) {
-      if (wanted.lights[i] != state.lights[i])
-        group_dirty[static_cast<std::size_t>(source.light_group_of(static_cast<int>(i)))] = true;
+      if (wanted.lights[i] != state.lights[i]) group_dirty[source.light_group_of(static_cast<int>(i))] = true;
     }
     const int environment = source.environment_group();
-    if (environment >= 0 && wanted.environment() != state.environment())
-      group_dirty[static_cast<std::size_t>(environment)] = true;
+    if (environment >= 0 && wanted.environment() != state.environment()) group_dirty[environment] = true;
     scale_dirty = unfinished || wanted.group_scales != state.group_scales;
     emission_dirty = unfinished || wanted.emission != state.emission;
   }

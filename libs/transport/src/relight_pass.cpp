@@ -174,7 +174,7 @@ void RelightSession::Data::find_emission() {
   if (emission_dirty) {
     for (SphlEmitter& emitter : emitters) emitter.leaving = {};
     for (const scene::SphlEmission& given_emission : state.emission)
-      emitters[static_cast<std::size_t>(given_emission.probe)].leaving = given_emission.leaving;
+      emitters[given_emission.probe].leaving = given_emission.leaving;
   }
   if (!emission_dirty && (moved.empty() || emission.empty())) return;
   emission.clear();

@@ -156,7 +156,7 @@ probes::SurfaceRecords RelightSession::records_by_group(const Control& control) 
   const std::vector<int>& direct = d.record_direct.groups();
   if (!direct.empty()) records.direct.resize(by_group.size());
   for (std::size_t k = 0; k < direct.size(); ++k)
-    records.direct[static_cast<std::size_t>(direct[k])] = packed(d.record_direct.found(k));
+    records.direct[direct[k]] = packed(d.record_direct.found(k));
   probes::merge_groups(records, d.state.group_scales);
   return records;
 }
@@ -180,9 +180,8 @@ sh::RadianceSh RelightSession::arriving(int group, int probe) const {
   const Data& d = data_->settled();
   d.check_probe(probe);
   require(d.direct_light != nullptr, "relighting", "all is dark before the first update");
-  return project_arriving(
-      d.direct_light->arriving(group, d.places[static_cast<std::size_t>(probe)].position, arriving_samples),
-      d.params.degree);
+  return project_arriving(d.direct_light->arriving(group, d.places[probe].position, arriving_samples),
+                          d.params.degree);
 }
 
 vec3 RelightSession::mirrored(const rays::SurfacePoint& at) const {

@@ -43,7 +43,7 @@ probes::ProbeSet lookup_set(const RelightSession& session) {
   set.light_groups[0].name = name_of_all(session.light_groups());
   for (std::size_t k = 0; k < session.kept_direct_count(); ++k) {
     const KeptDirect kept = session.kept_direct(k);
-    set.light_groups.push_back({session.light_groups()[static_cast<std::size_t>(kept.group)]});
+    set.light_groups.push_back({session.light_groups()[kept.group]});
     set.surface->groups.push_back(dark);
     set.surface->direct.resize(set.light_groups.size());
     set.surface->direct.back() = dark;
@@ -78,7 +78,7 @@ void refresh(probes::ProbeSet& set, const RelightSession& session) {
     const KeptDirect kept = session.kept_direct(k);
     probes::LightGroup& group = set.light_groups[1 + k];
     group.mode = kept.holds ? scene::LightMode::diffuse : scene::LightMode::realtime;
-    group.scale = session.shown().group_scales[static_cast<std::size_t>(kept.group)];
+    group.scale = session.shown().group_scales[kept.group];
     for (std::size_t i = 0; i < records.light.size(); ++i) {
       const vec3& normal = records.points[i].normal;
       probes::PackedRecordLight& packed = records.direct[1 + k][i];

@@ -38,7 +38,7 @@ int SurfelSizes::level(const vec3& position) const {
   if (!probes_) return 0;
   geometry::Near near{};
   probes_->nearest.find(position, {&near, 1});
-  const float apart = probes_->apart[static_cast<std::size_t>(near.index)];
+  const float apart = probes_->apart[near.index];
   return doublings(share_ * std::max(std::sqrt(near.distance2), apart), finest_);
 }
 
@@ -75,7 +75,7 @@ std::vector<Patch> patches_of(const ProbeGBuffer& gbuffer) {
     const vec3 position = gbuffer.positions[i / directions] + hit.distance * direction;
     geometry::Near near{};
     nearest.find(position, {&near, 1});
-    if (gbuffer.positions[static_cast<std::size_t>(near.index)] != gbuffer.positions[i / directions]) return;
+    if (gbuffer.positions[near.index] != gbuffer.positions[i / directions]) return;
     const double distance = double{hit.distance};
     const double cosine = std::max(std::abs(double{glm::dot(unpack_normal(hit), direction)}), least_cosine);
     patches[i] = {position, 4 * pi_d * distance * distance / (static_cast<double>(directions) * cosine)};

@@ -50,18 +50,18 @@ SurfelSet::SurfelSet(const rays::TransportSource& source, SurfelSizes sizes, std
 }
 
 int SurfelSet::level(int part, const vec3& position) const {
-  return part == 0 ? sizes_.level(position) : part_levels_[static_cast<std::size_t>(part)];
+  return part == 0 ? sizes_.level(position) : part_levels_[part];
 }
 
 float SurfelSet::coarsest() const {
   int level = SurfelSizes::most_level;
-  while (level > 0 && !has_level_[static_cast<std::size_t>(level)]) --level;
+  while (level > 0 && !has_level_[level]) --level;
   return size(level);
 }
 
 SurfelSet::Voxel SurfelSet::voxel(int part, int level, const vec3& position) const {
   const float size = sizes_.size(level);
-  const vec3 origin = origin_[static_cast<std::size_t>(part)] - 2.25f * size;
+  const vec3 origin = origin_[part] - 2.25f * size;
   const vec3 v = glm::floor((position - origin) / size);
   const vec3 c = glm::clamp(v, 1.0f, static_cast<float>((1 << axis_bits) - 2));
   return {level, static_cast<int>(c.x), static_cast<int>(c.y), static_cast<int>(c.z)};
@@ -101,7 +101,7 @@ std::span<const int> SurfelSet::candidates(int part, const rays::SurfacePoint& p
                                            std::span<int> out) const {
   const auto nearer = [&](int a, int b) {
     const auto distance2 = [&](int s) {
-      const vec3 d = surfels_[static_cast<std::size_t>(s)].point.position - point.position;
+      const vec3 d = surfels_[s].point.position - point.position;
       return glm::dot(d, d);
     };
     return std::pair(distance2(a), a) < std::pair(distance2(b), b);
@@ -123,7 +123,7 @@ std::span<const int> SurfelSet::candidates(int part, const rays::SurfacePoint& p
   if (const std::vector<int>* own = find_cell(own_key)) add(0, *own);
   const std::size_t around = count;
   for (int l = std::max(own_level - 1, 0); l <= std::min(own_level + 1, SurfelSizes::most_level); ++l) {
-    if (l != own_level && !has_level_[static_cast<std::size_t>(l)]) continue;
+    if (l != own_level && !has_level_[l]) continue;
     const Voxel centre = voxel(part, l, point.position);
     for (int z = -1; z <= 1; ++z) {
       for (int y = -1; y <= 1; ++y) {
@@ -184,7 +184,7 @@ std::vector<int> SurfelSet::add(int part, std::span<const ClusterPoint> points) 
       if (known != cells_.end()) {
         for (const int s : known->second) {
           if (left.empty()) break;
-          claim(surfels_[static_cast<std::size_t>(s)].point, owner++);
+          claim(surfels_[s].point, owner++);
         }
         owner = static_cast<int>(known->second.size());
       }
@@ -203,7 +203,7 @@ std::vector<int> SurfelSet::add(int part, std::span<const ClusterPoint> points) 
   for (std::size_t c = 0; c < cell_count; ++c) {
     const Key& cell = order[runs[c]].first;
     std::vector<int>& list = cells_[cell];
-    has_level_[static_cast<std::size_t>(level_of(cell))] = true;
+    has_level_[level_of(cell)] = true;
     for (const std::size_t founder : results[c].founders) {
       list.push_back(static_cast<int>(surfels_.size()));
       surfels_.push_back({points[founder].point, vec3(0), part, level_of(cell)});
@@ -213,7 +213,7 @@ std::vector<int> SurfelSet::add(int part, std::span<const ClusterPoint> points) 
     }
     for (std::size_t i = 0; i < results[c].owner.size(); ++i) {
       const std::size_t point = order[runs[c] + i].second;
-      const int s = list[static_cast<std::size_t>(results[c].owner[i])];
+      const int s = list[results[c].owner[i]];
       surfel_of[point] = s;
       const auto index = static_cast<std::size_t>(s);
       albedo_sum_[index] += glm::dvec3(points[point].albedo);
@@ -231,7 +231,7 @@ void SurfelSet::update_albedo() {
 
 std::vector<ClusterPoint> SurfelSet::spread_members(int surfel, int count) const {
   // Farthest-point order: begin at the representative, then always take the one farthest from all taken.
-  const std::vector<ClusterPoint>& all = members_[static_cast<std::size_t>(surfel)];
+  const std::vector<ClusterPoint>& all = members_[surfel];
   std::vector<float> distance2(all.size(), std::numeric_limits<float>::infinity());
   std::vector<ClusterPoint> chosen;
   for (std::size_t next = 0; static_cast<int>(chosen.size()) < count;) {
@@ -249,11 +249,11 @@ std::vector<ClusterPoint> SurfelSet::spread_members(int surfel, int count) const
 }
 
 std::vector<ClusterPoint> SurfelSet::spread_places(int index, int count) const {
-  const Surfel& surfel = surfels_[static_cast<std::size_t>(index)];
+  const Surfel& surfel = surfels_[index];
   const Key own = key(surfel.part, surfel.point);
   const Voxel v = voxel(surfel.part, surfel.level, surfel.point.position);
   const float edge = sizes_.size(surfel.level);
-  const vec3 low = origin_[static_cast<std::size_t>(surfel.part)] - 2.25f * edge +
+  const vec3 low = origin_[surfel.part] - 2.25f * edge +
                    edge * vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
   const int bin = direction_bin(surfel.point.normal), axis = bin / 2;
   const int across = (axis + 1) % 3, along = (axis + 2) % 3;

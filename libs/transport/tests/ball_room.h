@@ -19,7 +19,7 @@ class BallRoom final : public rays::TransportSource {
   static constexpr double room = 2, ball = 0.45;
 
   int part_count() const override { return 2; }
-  const std::string& part_name(int part) const override { return names_[static_cast<std::size_t>(part)]; }
+  const std::string& part_name(int part) const override { return names_[part]; }
   scene::Bounds part_bounds(int part) const override {
     const auto r = static_cast<float>(part == 0 ? room : ball);
     return {vec3(-r), vec3(r)};

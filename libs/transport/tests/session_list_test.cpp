@@ -238,7 +238,7 @@ TEST_F(SessionList, OfEdgesAndFittedWeights) {
   for (std::size_t i = 0; i < fitted.points.size(); ++i) {
     list_.line("point", fitted.points[i].position, fitted.points[i].normal);
     for (int k = 0; k < fitted.weights[i].count; ++k) {
-      const probes::ProbeWeight& w = fitted.weights[i].entries[static_cast<std::size_t>(k)];
+      const probes::ProbeWeight& w = fitted.weights[i].entries[k];
       list_.line("weight", w.probe, w.weight);
     }
   }

@@ -138,7 +138,7 @@ TEST(SurfelSet, SurfelsOfSeveralSizesAreNoWiderThanTheirVoxels) {
   const std::vector<int> surfel = set.add(0, points);
   std::set<int> levels;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Surfel& own = set.surfels()[static_cast<std::size_t>(surfel[i])];
+    const Surfel& own = set.surfels()[surfel[i]];
     const vec3& position = points[i].point.position;
     EXPECT_EQ(own.level, set.level(0, position));
     const vec3 apart = glm::abs(own.point.position - position);
@@ -154,7 +154,7 @@ TEST(SurfelSet, SurfelsOfSeveralSizesAreNoWiderThanTheirVoxels) {
   const ClusterPoint inside{{{border - 0.05f, 0, 0}, {0, 1, 0}}, vec3(0.5f)};
   const int inner = one.add(0, {&inside, 1})[0];
   const rays::SurfacePoint outside{{border + 0.05f, 0, 0}, {0, 1, 0}};
-  EXPECT_NE(one.level(0, outside.position), one.surfels()[static_cast<std::size_t>(inner)].level);
+  EXPECT_NE(one.level(0, outside.position), one.surfels()[inner].level);
   EXPECT_TRUE(one.cell(0, outside).empty());
   std::array<int, 4> room;
   const std::span<const int> found = one.candidates(0, outside, room);

@@ -86,15 +86,14 @@ TEST(SurfelSet, OneSurfelPerVoxelAndMainDirectionWhereNothingBlocks) {
     auto& [sum, count] = albedo.try_emplace(surfel[i], glm::dvec3(0), 0).first->second;
     sum += glm::dvec3(points[i].albedo), ++count;
     if (!fresh) continue;
-    const Surfel& made = set.surfels()[static_cast<std::size_t>(surfel[i])];
+    const Surfel& made = set.surfels()[surfel[i]];
     EXPECT_EQ(made.point.position, points[i].point.position) << "its first point founds a surfel";
     EXPECT_EQ(made.part, 0);
   }
   EXPECT_EQ(of_cell.size(), set.count()) << "different cells have different surfels";
   for (const auto& [s, sum_and_count] : albedo) {
     const glm::dvec3 mean = sum_and_count.first / double(sum_and_count.second);
-    for (glm::length_t c = 0; c < 3; ++c)
-      EXPECT_NEAR(double(set.surfels()[static_cast<std::size_t>(s)].albedo[c]), mean[c], 1e-6);
+    for (glm::length_t c = 0; c < 3; ++c) EXPECT_NEAR(double(set.surfels()[s].albedo[c]), mean[c], 1e-6);
   }
   // Numbered by cell: the map runs through the cells in the order of their keys.
   int next = 0;
@@ -147,8 +146,7 @@ TEST(SurfelSet, EveryMemberSeesItsRepresentative) {
   const std::vector<int> surfel = set.add(0, points);
   std::set<int> left, right;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const rays::RayQuery sight =
-        set.segment(set.surfels()[static_cast<std::size_t>(surfel[i])].point, points[i].point, 0);
+    const rays::RayQuery sight = set.segment(set.surfels()[surfel[i]].point, points[i].point, 0);
     std::uint8_t blocked = 1;
     source.occluded(0, {&sight, 1}, {&blocked, 1});
     EXPECT_FALSE(blocked);

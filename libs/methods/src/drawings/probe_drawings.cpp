@@ -32,7 +32,7 @@ sketch::Sketch hierarchy_drawing(const probes::ProbeSet& set) {
   float strongest = 0;
   for (std::size_t i = 0; i < set.probes.size(); ++i) {
     for (const int e : probes::select_neighbors(set.probes[i], params)) {
-      const probes::Edge& edge = set.probes[i].edges[static_cast<std::size_t>(e)];
+      const probes::Edge& edge = set.probes[i].edges[e];
       float& known = strength[std::minmax(edge.from, static_cast<int>(i))];
       known = std::max(known, edge.transfer);
       strongest = std::max(strongest, edge.transfer);
@@ -40,8 +40,7 @@ sketch::Sketch hierarchy_drawing(const probes::ProbeSet& set) {
   }
   for (const auto& [pair, transfer] : strength) {
     const float share = std::clamp(1 + std::log10(transfer / strongest) / 3, 0.0f, 1.0f);
-    marks.lines.push_back({positions[static_cast<std::size_t>(pair.first)],
-                           positions[static_cast<std::size_t>(pair.second)],
+    marks.lines.push_back({positions[pair.first], positions[pair.second],
                            glm::mix(vec3(0.02f, 0.1f, 0.8f), vec3(1, 0.75f, 0.05f), share), 1 + 3 * share});
   }
   return marks;
@@ -57,8 +56,7 @@ sketch::Sketch tetrahedra_drawing(const geometry::Tetrahedra& tetrahedra, std::s
   }
   sketch::Sketch marks;
   for (const auto& [a, b] : edges) {
-    marks.lines.push_back({points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)],
-                           vec3(0.1f, 0.7f, 0.9f), 1.2f});
+    marks.lines.push_back({points[a], points[b], vec3(0.1f, 0.7f, 0.9f), 1.2f});
   }
   const float radius = 0.5f * ball_radius(points);
   for (const vec3& point : points) marks.balls.push_back({point, radius, vec3(1, 0.6f, 0.1f)});

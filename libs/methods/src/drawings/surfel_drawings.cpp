@@ -12,7 +12,7 @@ constexpr std::size_t shown_sources = 6;
 /// The surfel where it stands now.
 sketch::Disc disc_of(const transport::TransportNetwork& network, std::size_t surfel) {
   const transport::Surfel& s = network.surfels().surfels()[surfel];
-  const mat4& pose = network.poses()[static_cast<std::size_t>(s.part)];
+  const mat4& pose = network.poses()[s.part];
   return {.center = vec3(pose * vec4(s.point.position, 1)),
           .normal = glm::normalize(mat3(pose) * s.point.normal),
           .radius = share_of_voxel * network.surfels().size(s.level),

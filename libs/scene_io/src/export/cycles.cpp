@@ -45,7 +45,7 @@ json::Value mesh_json(const FlatMesh& flat, std::vector<std::byte>& binary) {
                       {"indices", append(binary, mesh.triangles)}};
   if (!mesh.normals.empty()) json["normals"] = append(binary, mesh.normals);
   for (int set = 0; set < 2; ++set) {
-    const auto& uv = mesh.uvs[static_cast<std::size_t>(set)];
+    const auto& uv = mesh.uvs[set];
     if (!uv.empty()) json[fmt::format("uv{}", set)] = append(binary, uv);
   }
   if (!mesh.colors.empty()) json["colors"] = append(binary, mesh.colors);

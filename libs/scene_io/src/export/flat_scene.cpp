@@ -20,8 +20,8 @@ void turn_to_front(scene::Mesh& mesh) {
 }
 
 FlatMesh flat_mesh(const scene::Scene& scene, const scene::Instance& instance, const mat4& world) {
-  const scene::Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-  const std::string& name = scene.nodes[static_cast<std::size_t>(instance.node)].name;
+  const scene::Mesh& mesh = scene.meshes[instance.mesh];
+  const std::string& name = scene.nodes[instance.node].name;
   FlatMesh flat{name.empty() ? mesh.name : name, scene::instance_material(scene, instance), mesh};
   flat.mesh.tangents.clear();
   for (vec3& p : flat.mesh.positions) p = vec3(world * vec4(p, 1));
@@ -40,11 +40,11 @@ FlatScene flatten(const scene::Scene& scene, float time) {
   const std::vector<mat4> world = scene::world_matrices(scene, time);
   FlatScene flat;
   for (const scene::Instance& instance : scene.instances) {
-    if (scene.meshes[static_cast<std::size_t>(instance.mesh)].triangles.empty()) continue;
-    flat.meshes.push_back(flat_mesh(scene, instance, world[static_cast<std::size_t>(instance.node)]));
+    if (scene.meshes[instance.mesh].triangles.empty()) continue;
+    flat.meshes.push_back(flat_mesh(scene, instance, world[instance.node]));
   }
   for (const scene::Light& light : scene.lights) {
-    const mat4& m = world[static_cast<std::size_t>(light.node)];
+    const mat4& m = world[light.node];
     vec3 strength = light.color * light.intensity;
     if (light.type == scene::LightType::sphl)
       strength *= scene::mean_intensity(scene::emission_at(light.emission, time));
@@ -55,7 +55,7 @@ FlatScene flatten(const scene::Scene& scene, float time) {
 
 const scene::Material& material_of(const scene::Scene& scene, const FlatMesh& mesh) {
   static const scene::Material standard;
-  return mesh.material < 0 ? standard : scene.materials[static_cast<std::size_t>(mesh.material)];
+  return mesh.material < 0 ? standard : scene.materials[mesh.material];
 }
 
 }  // namespace ssphh::scene_io

@@ -51,7 +51,7 @@ Coverage coverage(const scene::Scene& scene, const scene::Material& m, TextureFi
   };
   const int texture = m.base_color_texture.texture;
   if (texture < 0) return {final(m.alpha), {}};
-  const std::vector<std::uint8_t>& rgba = scene.textures[static_cast<std::size_t>(texture)].rgba;
+  const std::vector<std::uint8_t>& rgba = scene.textures[texture].rgba;
   bool varies = false;
   for (std::size_t i = 3; i < rgba.size() && !varies; i += 4) varies = rgba[i] != 255;
   if (!varies) return {final(m.alpha), {}};
@@ -76,7 +76,7 @@ const scene::TextureUse& leading_texture(const scene::Material& m) {
 
 std::vector<vec2> texture_coordinates(const scene::Mesh& mesh, const scene::TextureUse& use) {
   if (use.texture < 0) return {};
-  std::vector<vec2> result = mesh.uvs[static_cast<std::size_t>(use.uv_set)];
+  std::vector<vec2> result = mesh.uvs[use.uv_set];
   result.resize(mesh.positions.size(), vec2(0));
   const mat3 matrix = uv_matrix(use);
   for (vec2& uv : result) uv = vec2(matrix * vec3(uv, 1));

@@ -41,19 +41,19 @@ std::string TextureFiles::color(int texture, const vec3& factor) {
   if (factor != vec3(1)) return linear_color(texture, factor);
   // PNG encodes what the codes decode to: the same codes again.
   return once(fmt::format("color {}", texture), fmt::format("texture{}.png", texture),
-              [&] { return colors_of(scene_.textures[static_cast<std::size_t>(texture)], vec3(1)); });
+              [&] { return colors_of(scene_.textures[texture], vec3(1)); });
 }
 
 std::string TextureFiles::linear_color(int texture, const vec3& factor) {
   return once(fmt::format("color {} times {} {} {}", texture, factor.x, factor.y, factor.z),
               fmt::format("texture{}-{}.exr", texture, names_.size()),
-              [&] { return colors_of(scene_.textures[static_cast<std::size_t>(texture)], factor); });
+              [&] { return colors_of(scene_.textures[texture], factor); });
 }
 
 std::string TextureFiles::channel(int texture, int channel, const std::string& kind,
                                   const std::function<float(float)>& map) {
   const auto make = [&] {
-    const scene::Texture& source = scene_.textures[static_cast<std::size_t>(texture)];
+    const scene::Texture& source = scene_.textures[texture];
     Image result(source.width, source.height);
     for (std::size_t i = 0; i < result.pixels.size() / 3; ++i) {
       const float value =

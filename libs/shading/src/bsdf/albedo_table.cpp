@@ -33,7 +33,7 @@ vec2 integrate_lobe(bool phong, float alpha, const vec3& wo) {
 AlbedoTable::AlbedoTable(bool phong) {
   const float step = 1.0f / (size - 1);
   for (int r = 0; r < size; ++r) {
-    vec2* row = values_[static_cast<std::size_t>(r)].data();
+    vec2* row = values_[r].data();
     const float alpha = alpha_of_roughness(static_cast<float>(r) * step);
     for (int m = 0; m < size; ++m) {
       const float mu = glm::max(static_cast<float>(m) * step, 1e-3f);
@@ -46,7 +46,7 @@ AlbedoTable::AlbedoTable(bool phong) {
       const vec2 slope = row[m + 1] - row[m];
       mean += 2 * step * (row[m] * (mu + step / 2) + slope * (mu / 2 + step / 3));
     }
-    means_[static_cast<std::size_t>(r)] = mean;
+    means_[r] = mean;
   }
 }
 

@@ -22,11 +22,11 @@ std::vector<float> row_importance(const image::Image& image, int y) {
     const int opposite = (x + width / 2) % width;
     const float above = y > 0 ? value(x, y - 1) : value(opposite, 0);
     const float below = y + 1 < height ? value(x, y + 1) : value(opposite, height - 1);
-    vertical[static_cast<std::size_t>(x)] = (above + 6 * value(x, y) + below) / 8;
+    vertical[x] = (above + 6 * value(x, y) + below) / 8;
   }
   for (int x = 0; x < width; ++x) {
-    const auto at = [&](int column) { return vertical[static_cast<std::size_t>((column + width) % width)]; };
-    result[static_cast<std::size_t>(x)] = (at(x - 1) + 6 * at(x) + at(x + 1)) / 8;
+    const auto at = [&](int column) { return vertical[(column + width) % width]; };
+    result[x] = (at(x - 1) + 6 * at(x) + at(x + 1)) / 8;
   }
   return result;
 }
@@ -61,7 +61,7 @@ EnvironmentLight::EnvironmentLight(const vec3& color, float rotation, int group,
     double sum = 0;
     for (const float v : importance) sum += static_cast<double>(v);
     sum *= image::equirect_solid_angle(y, width, height);
-    row_power[static_cast<std::size_t>(y)] = static_cast<float>(sum);
+    row_power[y] = static_cast<float>(sum);
     total += sum;
   }
   rows_ = Distribution(row_power);

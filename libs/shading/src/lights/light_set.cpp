@@ -116,7 +116,7 @@ float LightSet::pdf_triangle(const vec3& position, int instance, std::uint32_t t
   const Data& d = *data_;
   require(instance >= 0 && static_cast<std::size_t>(instance) < d.instance_mesh_light.size(), "light set",
           "there is no instance of that index");
-  const int mesh = d.instance_mesh_light[static_cast<std::size_t>(instance)];
+  const int mesh = d.instance_mesh_light[instance];
   if (mesh < 0) return 0;
   const auto index = static_cast<std::size_t>(mesh);
   const float pdf = d.meshes[index]->pdf(position, triangle, distance, cos_light);
@@ -127,7 +127,7 @@ int LightSet::instance_group(int instance) const {
   const std::vector<int>& groups = data_->instance_group;
   require(instance >= 0 && static_cast<std::size_t>(instance) < groups.size(), "light set",
           "there is no instance of that index");
-  return groups[static_cast<std::size_t>(instance)];
+  return groups[instance];
 }
 
 int LightSet::sphere_count() const {

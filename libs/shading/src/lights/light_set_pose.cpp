@@ -11,7 +11,7 @@ namespace ssphh::shading {
 namespace {
 
 mat4 matrix_at(const std::vector<mat4>& world, int node) {
-  return node < 0 ? mat4(1) : world[static_cast<std::size_t>(node)];
+  return node < 0 ? mat4(1) : world[node];
 }
 
 /// The light of the scene's own environment as it is now; `last` is kept where it is the same.
@@ -127,8 +127,7 @@ void LightSet::Data::add_meshes(const std::vector<mat4>& world, const Data* base
     if (instance_group[i] < 0 || material.unlit) continue;
     const mat4 matrix = matrix_at(world, instance.node);
     std::shared_ptr<const MeshLight> light;
-    if (base && base->instance_mesh_light[i] >= 0)
-      light = base->meshes[static_cast<std::size_t>(base->instance_mesh_light[i])];
+    if (base && base->instance_mesh_light[i] >= 0) light = base->meshes[base->instance_mesh_light[i]];
     if (!light || light->world() != matrix) {
       std::shared_ptr<const MeshLight>& moved = moved_meshes[i];
       if (!moved || moved->world() != matrix)
@@ -173,7 +172,7 @@ LightSet LightSet::without(std::span<const int> groups) const {
     if (is_one(d.instance_group[i])) d.instance_group[i] = mesh = -1;
     if (mesh < 0) continue;
     mesh = static_cast<int>(d.meshes.size());
-    d.meshes.push_back(data_->meshes[static_cast<std::size_t>(before)]);
+    d.meshes.push_back(data_->meshes[before]);
   }
   d.distant = d.distant.without(groups);
   d.divide_choices();

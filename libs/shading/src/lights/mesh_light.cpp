@@ -8,7 +8,7 @@
 namespace ssphh::shading {
 MeshLight::MeshLight(const scene::Scene& scene, const scene::Instance& instance, const mat4& world, int group)
     : scene_(&scene),
-      mesh_(&scene.meshes[static_cast<std::size_t>(instance.mesh)]),
+      mesh_(&scene.meshes[instance.mesh]),
       material_(&material_at(scene, scene::instance_material(scene, instance))),
       world_(world),
       group_(group),

@@ -4,7 +4,7 @@ namespace ssphh::shading {
 
 const scene::Material& material_at(const scene::Scene& scene, int material) {
   static const scene::Material plain;
-  return material < 0 ? plain : scene.materials[static_cast<std::size_t>(material)];
+  return material < 0 ? plain : scene.materials[material];
 }
 
 void interpolate_uvs(const scene::Mesh& mesh, const Corners& at, vec2 (&uv)[2]) {

@@ -62,7 +62,7 @@ vec2 transform_uv_direction(const scene::TextureUse& use, const vec2& uv) {
 
 vec4 sample_texture(const scene::Scene& scene, const scene::TextureUse& use, const vec2 (&uv)[2], bool srgb) {
   if (use.texture < 0) return vec4(1);
-  const scene::Texture& texture = scene.textures[static_cast<std::size_t>(use.texture)];
+  const scene::Texture& texture = scene.textures[use.texture];
   const int width = texture.width, height = texture.height;
   if (width <= 0 || height <= 0) return vec4(1);
   const CodeTable& color = code_table(srgb);

@@ -22,7 +22,7 @@ struct CornerWeights {
   std::array<CornerWeight, 4> entries;
   int count = 0;
 
-  void add(std::int32_t point, float weight) { entries[static_cast<std::size_t>(count++)] = {point, weight}; }
+  void add(std::int32_t point, float weight) { entries[count++] = {point, weight}; }
   std::span<const CornerWeight> used() const& { return {entries.data(), static_cast<std::size_t>(count)}; }
   void used() const&& = delete;  // the list would be gone
 };
@@ -46,7 +46,7 @@ class Tetrahedra {
   /// The corners of a cell, as indices among the points given.
   std::array<std::int32_t, 4> corners(const Tetrahedron& cell) const {
     std::array<std::int32_t, 4> points;
-    for (std::size_t k = 0; k < 4; ++k) points[k] = index_[static_cast<std::size_t>(cell.vertex[k])];
+    for (std::size_t k = 0; k < 4; ++k) points[k] = index_[cell.vertex[k]];
     return points;
   }
   std::size_t hull_size() const { return hull_.triangles().size(); }

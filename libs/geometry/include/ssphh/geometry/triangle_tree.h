@@ -43,12 +43,12 @@ class TriangleTree {
     int depth = 0;
     stack[0] = 0;
     while (depth >= 0) {
-      const Node& node = nodes_[static_cast<std::size_t>(stack[static_cast<std::size_t>(depth--)])];
+      const Node& node = nodes_[stack[depth--]];
       if (distance2(node.box, p) > best.place.distance2) continue;
       for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-        const std::int32_t triangle = order_[static_cast<std::size_t>(i)];
+        const std::int32_t triangle = order_[i];
         if (!takes(triangle)) continue;
-        const OnTriangle place = nearest_on_triangle(corners_[static_cast<std::size_t>(triangle)], p);
+        const OnTriangle place = nearest_on_triangle(corners_[triangle], p);
         const float d = place.distance2;
         if (d < best.place.distance2 ||
             (d == best.place.distance2 && (best.triangle < 0 || triangle < best.triangle)))
@@ -57,10 +57,9 @@ class TriangleTree {
       if (node.count > 0) continue;
       // The nearer child is opened first.
       const std::int32_t left = node.first, right = left + 1;
-      const bool swap = distance2(nodes_[static_cast<std::size_t>(right)].box, p) <
-                        distance2(nodes_[static_cast<std::size_t>(left)].box, p);
-      stack[static_cast<std::size_t>(++depth)] = swap ? left : right;
-      stack[static_cast<std::size_t>(++depth)] = swap ? right : left;
+      const bool swap = distance2(nodes_[right].box, p) < distance2(nodes_[left].box, p);
+      stack[++depth] = swap ? left : right;
+      stack[++depth] = swap ? right : left;
     }
     return best;
   }

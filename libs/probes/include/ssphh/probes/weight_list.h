@@ -23,7 +23,7 @@ struct WeightList {
   /// Throws Error when the list is full.
   void add(int probe, float weight) {
     require(count < capacity, "list of weights", "it is full");
-    entries[static_cast<std::size_t>(count++)] = {probe, weight};
+    entries[count++] = {probe, weight};
   }
   std::span<const ProbeWeight> used() const& { return {entries.data(), static_cast<std::size_t>(count)}; }
   std::span<ProbeWeight> used() & { return {entries.data(), static_cast<std::size_t>(count)}; }

@@ -100,7 +100,7 @@ int RandomScene::material_or_glass() {
   const int chosen = material();
   if (!glass.chance(0.25f)) return chosen;
   const vec3 color = glass.chance(0.5f) ? vec3(1) : glass.albedo();
-  b.scene().materials[static_cast<std::size_t>(chosen)] = solid_glass("glass", color, glass.scaled(0.05f, 1));
+  b.scene().materials[chosen] = solid_glass("glass", color, glass.scaled(0.05f, 1));
   return chosen;
 }
 

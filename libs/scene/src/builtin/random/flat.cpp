@@ -65,7 +65,7 @@ void add_flat(RandomScene& s) {
   for (int row = 0; row <= rows; ++row) {
     for (std::size_t i = 0; i + 1 < xs.size(); ++i) {
       const float from = xs[i] + thick, to = xs[i + 1];
-      const float across = zs[static_cast<std::size_t>(row)];
+      const float across = zs[row];
       if (row == 0 || row == rows) {
         wall(0, across, xs[i], to, window(from, to), outer);
         continue;
@@ -74,12 +74,12 @@ void add_flat(RandomScene& s) {
       wall(0, across, xs[i], to, {door}, s.matte());
       if (draw.chance(0.6f)) add_leaf(s, 0, across, door);
     }
-    wall(0, zs[static_cast<std::size_t>(row)], xs.back(), wide, {}, outer);
+    wall(0, zs[row], xs.back(), wide, {}, outer);
   }
   for (int column = 0; column <= columns; ++column) {
     for (std::size_t i = 0; i + 1 < zs.size(); ++i) {
       const float from = zs[i] + thick, to = zs[i + 1];
-      const float across = xs[static_cast<std::size_t>(column)];
+      const float across = xs[column];
       if (column == 0 || column == columns) {
         wall(2, across, from, to, window(from, to), outer);
         continue;

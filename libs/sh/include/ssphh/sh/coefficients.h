@@ -48,8 +48,8 @@ struct RgbSh {
     while (coefficient_count(d + 1) <= static_cast<int>(values.size())) ++d;
     return d;
   }
-  vec3& operator[](int k) { return values[static_cast<std::size_t>(k)]; }
-  const vec3& operator[](int k) const { return values[static_cast<std::size_t>(k)]; }
+  vec3& operator[](int k) { return values[k]; }
+  const vec3& operator[](int k) const { return values[k]; }
 
   /// ⊕ of the paper: the sum of two functions. Throws Error unless both have the same degree.
   RgbSh& operator+=(const RgbSh& other) {

@@ -21,9 +21,7 @@ class Rotation {
 
   int degree() const { return degree_; }
   /// Element (m, n) of band l: R Y_ln = Σ_m element(l, m, n) Y_lm.
-  double element(int l, int m, int n) const {
-    return band(l)[static_cast<std::size_t>((m + l) * (2 * l + 1) + n + l)];
-  }
+  double element(int l, int m, int n) const { return band(l)[(m + l) * (2 * l + 1) + n + l]; }
 
   /// The rotated function; sh.degree() ≤ degree().
   RadianceSh apply(const RadianceSh& sh) const;

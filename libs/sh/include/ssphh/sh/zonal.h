@@ -49,7 +49,7 @@ double gaussian_band_scale(double sigma, int l);
 /// over perceptual roughness 0..1 (clamped), error below 1e-3. Roughness 0 leaves the function as it is.
 std::array<float, max_degree + 1> glossy_band_scales(float roughness);
 inline float glossy_band_scale(float roughness, int l) {
-  return glossy_band_scales(roughness)[static_cast<std::size_t>(l)];
+  return glossy_band_scales(roughness)[l];
 }
 
 /// Radiance averaged over the glossy lobe about the unit direction `mirror`.

@@ -65,9 +65,7 @@ class SurfelSet {
   /// as seen along the voxel's main direction.
   std::vector<ClusterPoint> spread_places(int surfel, int count) const;
   /// At most `count` of the members kept, in the order they were added.
-  std::span<const ClusterPoint> members(int surfel) const {
-    return members_[static_cast<std::size_t>(surfel)];
-  }
+  std::span<const ClusterPoint> members(int surfel) const { return members_[surfel]; }
 
   /// Surfels of the point's own cell, then of those around it (of the next finer and coarser voxels, too),
   /// nearest representative first: the first of them that fit into `out`. In the part's frame.
