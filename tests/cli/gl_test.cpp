@@ -12,6 +12,7 @@
 
 #include "gl_context.h"
 #include "here.h"
+#include "results/pictures.h"
 #include "temp_dir.h"
 #include "tool_checks.h"
 
@@ -114,6 +115,29 @@ TEST_F(GlTool, EveryKindOfWeightsIsDrawnAsTheCpuDoes) {
                  {"has no fitted weights", "--fit"});
 }
 
+TEST_F(GlTool, WithoutAProbeFileMakesTheProbesThatTheCpuMakes) {
+  const TempDir dir;
+  const auto render = [&](const std::vector<std::string>& more) {
+    return run_json(joined(joined({"render", "builtin:box", "--method", "ssphh", "--param", "probes=8", "-o",
+                                   dir / "x.exr", "--spp", "16", "--aov", "indirect"},
+                                  tiny),
+                           more));
+  };
+  std::map<std::string, double> means;
+  for (const char* weights : {"surface", "fitted"}) {
+    const std::vector<std::string> chosen = {"--param", "weights=" + std::string(weights)};
+    const json::Value drawn = render(joined(chosen, {"--backend", "gl"}));
+    const auto of_drawn = app::mean_radiance(image::read_image(dir / "x.indirect.exr"));
+    const json::Value traced = render(chosen);
+    const auto of_traced = app::mean_radiance(image::read_image(dir / "x.indirect.exr"));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(of_drawn[c] / of_traced[c], 1, 0.01) << weights << c;
+    EXPECT_EQ(drawn["probes"], traced["probes"]);
+    EXPECT_EQ(drawn["geometry_builds"], 1);
+    means[weights] = of_drawn[0];
+  }
+  EXPECT_NE(means["surface"], means["fitted"]);
+}
+
 TEST_F(GlTool, TakesSixteenSamplesAtMostForThePathsAskedFor) {
   const TempDir dir;
   const json::Value done =
@@ -182,7 +206,7 @@ TEST_F(GlTool, DrawsMethodsThatGiveTheirLightAsData) {
   const std::vector<std::string> gl = {"render", "builtin:cornell", "--backend", "gl", "-o", dir / "b.exr"};
   expect_failure(joined(gl, {"--method", "ddgi"}), {"ddgi", "no OpenGL version", "vct"});
   expect_failure(joined(gl, {"--method", "vct", "--probes", "x.sphl"}), {"--probes", "vct"});
-  expect_failure(joined(gl, {"--method", "ssphh", "--param", "probes=8"}), {"--param"});
+  expect_failure(joined(gl, {"--method", "ssphh", "--param", "probe=8"}), {"probe", "probes"});
   expect_failure({"bench-frame", "builtin:cornell", "--method", "vpl", "--move"}, {"--move"});
   EXPECT_FALSE(std::filesystem::exists(dir / "b.exr"));
 }

@@ -43,12 +43,12 @@ void move_scene(realtime::Renderer& renderer, const scene::Scene& scene, const s
 }
 
 /// Lights the scene by the method: from here on nothing of it is asked for.
-void set_method(realtime::Renderer& renderer, const BenchFrameOptions& o, const scene::Scene& scene,
+void make_light(realtime::Renderer& renderer, const BenchFrameOptions& o, const scene::Scene& scene,
                 const Control& control) {
-  pipeline::LiveMethod live(o.method, o.parameters, std::make_shared<const trace::SceneGeometry>(scene),
-                            scene, control);
+  const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
+  pipeline::LiveMethod live(o.method, o.parameters, geometry, scene, control);
   live.update(rays::lighting_at(live.source(), o.scene.time), control);
-  renderer.set_method_light(live.method().light_data());
+  set_method(renderer, live.method().light_data(), o.lookup.spec, geometry, scene, o.scene.time);
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ BenchFrameResult run_bench_frame(const BenchFrameOptions& o, const Control& cont
   if (probes)
     set_probes(renderer, o.lookup, scene, o.scene.time);
   else
-    set_method(renderer, o, scene, control);
+    make_light(renderer, o, scene, control);
   realtime::FrameSettings settings = still_settings(o.lookup, o.supersample);
   settings.indirect_scale = o.indirect_scale;
   realtime::FrameSettings direct_only = settings;
@@ -170,7 +170,7 @@ void add_bench_frame_command(Command app, Context& context) {
       add_command(app, context, "bench-frame", "Time frames of the OpenGL renderer", run_bench_frame);
   add_scene_options(command, o.scene);
   command.option("--probes", o.lookup.probes, "Probe file; without one: direct light alone");
-  std::vector<std::string> methods = {"ssphh"};
+  std::vector<std::string> methods;
   for (const methods::MethodEntry& entry : methods::all_methods()) {
     if (entry.has_light_data) methods.emplace_back(entry.name);
   }

@@ -20,7 +20,7 @@ namespace {
 
 /// Whether the real-time renderer draws the method's light; method direct has none.
 bool gl_method(const std::string& name) {
-  return name == "ssphh" || name == "direct" || methods::find_method(name).has_light_data;
+  return name == "direct" || methods::find_method(name).has_light_data;
 }
 
 /// How the real-time renderer draws a layer; none: it cannot.
@@ -37,6 +37,7 @@ void refuse_with_gl(const RenderOptions& o) {
   const auto refuse = [](const std::string& option, const std::string& problem) {
     throw Error(option, problem + " is not for --backend gl", "leave it out, or take --backend cpu");
   };
+  pipeline::check_method(o.method, !o.parameters.empty(), !o.probes.empty());
   if (o.method == "path") refuse("--method", "path tracing");
   if (!gl_method(o.method))
     throw Error("--method " + o.method, "has no OpenGL version",
@@ -44,16 +45,7 @@ void refuse_with_gl(const RenderOptions& o) {
   if (o.projection != PictureProjection::camera) refuse("--projection", "a picture of the whole sphere");
   if (o.resume) refuse("--resume", "resuming");
   if (o.farm.any()) refuse("--broker or --local", "a farm");
-  if (!o.probes.empty() && o.method != "ssphh")
-    throw Error("--probes", fmt::format("is of method ssphh, not of {}", o.method));
   pipeline::check_drawings(o.method, !o.probes.empty(), drawings_of(o));
-  if (!o.draw.empty() && o.method == "ssphh" && o.probes.empty())
-    throw Error("--draw " + o.draw.front(), "needs a probe file with --backend gl", "give --probes");
-  if (!o.parameters.empty() && o.method == "ssphh") refuse("--param", "making probes for one picture");
-  if (o.method == "ssphh" && o.probes.empty() && o.max_depth >= 2)
-    throw Error(
-        "--probes", "method ssphh needs a probe file",
-        fmt::format("make one with `ssphh bake {} -o probes.sphl`, or take --max-depth 1", o.scene.source));
   for (const trace::RenderLayer layer : o.aovs) {
     if (!view_of(layer)) refuse("--aov", std::string(name_of(layer)));
   }
@@ -68,9 +60,9 @@ RenderResult render_gl(const RenderOptions& o, const Control& control) {
   const Stopwatch watch;
   std::optional<pipeline::LiveMethod> live;
   trace::SharedGeometry geometry;
-  if (o.method != "ssphh") {
+  if (o.probes.empty() && o.max_depth >= 2) {  // with less there is none
     geometry = std::make_shared<const trace::SceneGeometry>(scene);
-    live.emplace(o.method, o.parameters, geometry, scene, control);
+    live.emplace(o.method, o.parameters, geometry, scene, control, true);
     live->update(rays::lighting_at(live->source(), o.scene.time), control);
     log_info("{}: {}", o.method, live->text());
   }
@@ -78,8 +70,8 @@ RenderResult render_gl(const RenderOptions& o, const Control& control) {
   realtime::Renderer renderer(gl, scene, {}, o.scene.time);
   const GlLookup lookup{o.max_depth >= 2 ? o.probes : "", o.lookup, o.force};
   set_probes(renderer, lookup, scene, o.scene.time);
-  if (live && methods::find_method(o.method).has_light_data && o.max_depth >= 2)
-    renderer.set_method_light(live->method().light_data());
+  if (live && methods::find_method(o.method).has_light_data)
+    set_method(renderer, live->method().light_data(), o.lookup, geometry, scene, o.scene.time);
   int side = 1;
   while (side < 4 && side * side < o.spp * o.passes) ++side;
   realtime::FrameSettings settings = still_settings(lookup, side);

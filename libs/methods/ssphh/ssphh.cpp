@@ -74,14 +74,12 @@ class Ssphh final : public Method {
         gathers_(p.choice("weights") == gather) {
     probes::WeightParams weights;
     weights.method = weight_method(p);
-    std::optional<probes::FittedPoints> fitted;
     if (weights.method == probes::WeightMethod::fitted)
-      fitted = fit(p.integer("fit_poses"), p.integer("fit_points"), control);
+      fitted_ = fit(p.integer("fit_poses"), p.integer("fit_points"), control);
     const std::vector<vec3> positions = scene::positions_of(session_.places());
     weights_ = probes::make_weights(
         positions, [this](const vec3& a, const vec3& b) { return surfaces_->visible(a, b); }, weights,
-        fitted ? &*fitted : nullptr);
-    fitted_points_ = fitted ? fitted->points.size() : 0;
+        fitted_ ? &*fitted_ : nullptr);
     if (session_.gather()) {
       records_ = std::make_shared<const probes::SurfaceInterpolation>(
           session_.gather()->points(),
@@ -100,6 +98,13 @@ class Ssphh final : public Method {
   const rays::IndirectLight& light() const override {
     if (gathered_) return *gathered_;
     return *lookup_;
+  }
+
+  LightData light_data() const override {
+    if (gathers_) return {};
+    probes::ProbeSet set = transport::lookup_set(session_);
+    set.fitted = fitted_;
+    return ProbeLight{std::make_shared<const probes::ProbeSet>(std::move(set))};
   }
 
   sketch::Sketch drawing(Drawing what) const override {
@@ -129,7 +134,7 @@ class Ssphh final : public Method {
   MethodNumbers numbers() const override {
     return {{"probes", static_cast<double>(session_.places().size())},
             {"surfels", static_cast<double>(session_.network().surfel_count())},
-            {"fitted_points", static_cast<double>(fitted_points_)},
+            {"fitted_points", fitted_ ? static_cast<double>(fitted_->points.size()) : 0},
             {"records", records_ ? static_cast<double>(records_->count()) : 0}};
   }
 
@@ -151,7 +156,7 @@ class Ssphh final : public Method {
   const rays::TransportSource& source_;
   transport::RelightSession session_;
   std::optional<rays::PosedWorld> surfaces_;
-  std::size_t fitted_points_ = 0;
+  std::optional<probes::FittedPoints> fitted_;
   std::shared_ptr<const probes::LookupWeights> weights_;
   std::shared_ptr<const probes::SurfaceInterpolation> records_;  ///< places of the session's; or null
   std::shared_ptr<const probes::IrradianceLookup> lookup_;
@@ -181,7 +186,7 @@ MethodEntry entry() {
        {"warm_start", 1, 0, 1, "solve from the last frame's light", true}},
       [](const MethodScene& scene, const MethodParameters& p, const Control& control)
           -> std::unique_ptr<Method> { return std::make_unique<Ssphh>(scene, p, control); },
-      false,
+      true,
       {Drawing::surfels, Drawing::links, Drawing::hierarchy}};
 }
 

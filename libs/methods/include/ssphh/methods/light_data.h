@@ -2,11 +2,13 @@
 /// What a method's light is made of, as plain data, for renderers that look it up by themselves: those that
 /// cannot ask a rays::IndirectLight at every pixel, as OpenGL.
 
+#include <memory>
 #include <span>
 #include <variant>
 
 #include <ssphh/methods/vct/cone_light.h>
 #include <ssphh/methods/vpl/virtual_lights.h>
+#include <ssphh/probes/probe_set.h>
 
 namespace ssphh::methods {
 
@@ -22,7 +24,13 @@ struct VirtualLights {
   vpl::VplParams params;
 };
 
+/// SPHLs, with records of surfaces or fitted weights where the method has any. Does not change with the
+/// method.
+struct ProbeLight {
+  std::shared_ptr<const probes::ProbeSet> set;
+};
+
 /// monostate: only the method itself can look its light up.
-using LightData = std::variant<std::monostate, VoxelCones, VirtualLights>;
+using LightData = std::variant<std::monostate, VoxelCones, VirtualLights, ProbeLight>;
 
 }  // namespace ssphh::methods
