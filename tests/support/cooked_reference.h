@@ -62,7 +62,8 @@ struct ListedShares {
     const vec3 u = (at.position - grid->origin) / grid->cell_size;
     const ivec3 cell(glm::floor(u));
     const ivec3 q(glm::floor(8.0f * (u - vec3(cell))));
-    const std::array squares = {q.y + 8 * q.z, q.x + 8 * q.z, q.x + 8 * q.y};
+    const std::array parts = {q.y + 8 * q.z, q.x + 8 * q.z, q.x + 8 * q.y,
+                              q.x / 2 + 4 * (q.y / 2) + 16 * (q.z / 2)};
     const uvec2 range =
         lists.ranges[grid->first +
                      static_cast<std::size_t>((cell.z * grid->cells.y + cell.y) * grid->cells.x + cell.x)];
@@ -72,7 +73,7 @@ struct ListedShares {
     for (unsigned i = 0; i < range.y; ++i) {
       const uvec4 e = lists.lists[range.x + i];
       const std::size_t point = e.x & 0x7ffffu;
-      const int s = squares[e.x >> 22];
+      const int s = parts[e.x >> 22];
       if (!((s < 32 ? e.y : e.z) >> (s & 31) & 1u)) continue;
       const rays::SurfacePoint& p = lists.points[point];
       const auto spacing = static_cast<double>(std::bit_cast<float>(e.w));

@@ -9,11 +9,12 @@ namespace {
 struct Entry {
   explicit Entry(const probes::uvec4& e)
       : point(e.x & 0x7ffffu),
-        kind(e.x >> 19),
+        cover(e.x >> 19 & 7u),
+        cut(e.x >> 22),
         mask(std::uint64_t{e.z} << 32 | e.y),
         spacing(std::bit_cast<float>(e.w)) {}
 
-  std::uint32_t point, kind;
+  std::uint32_t point, cover, cut;
   std::uint64_t mask;
   float spacing;
 };
@@ -56,9 +57,10 @@ void add_points(Sections& out, const probes::SurfaceLists& lists) {
             for (unsigned k = 0; k < range.y; ++k) {
               const Entry entry(lists.lists[range.x + k]);
               points[entry.point].spacing = entry.spacing;
-              points[entry.point].kind = entry.kind;
+              points[entry.point].cover = entry.cover;
               const bool masked = entry.mask != all;
-              out.append(SSPHH_COOKED_ENTRIES, entry.point | (masked ? SSPHH_COOKED_MASKED : 0u));
+              const std::uint32_t how = SSPHH_COOKED_MASKED | entry.cut << SSPHH_COOKED_CUT_SHIFT;
+              out.append(SSPHH_COOKED_ENTRIES, entry.point | (masked ? how : 0u));
               if (masked) out.append(SSPHH_COOKED_MASKS, entry.mask);
               h.mask_count += masked;
               ++h.entry_count;

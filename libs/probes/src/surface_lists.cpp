@@ -36,7 +36,7 @@ struct Work {
     float order;                       ///< distance from the cell's middle, in the point's spacings, squared
     std::vector<std::uint32_t> asked;  ///< samples that it may light
     std::vector<char> seen;            ///< by those; empty: by all
-    std::uint64_t outweighed = 0;      ///< squares with samples at which it does not count
+    std::vector<std::uint32_t> outweighed;  ///< samples at which it does not count
   };
   SurfaceSamples samples;
   std::vector<Layers> taken;  ///< in each part of a cell, by axis
@@ -158,9 +158,9 @@ class Preparation {
     for (const Work::Candidate& candidate : work.candidates) {
       if (work.list.size() == static_cast<std::size_t>(SurfaceLists::longest)) break;
       const std::uint32_t p = candidate.point;
-      const int axis = surface_axis(out_.points[p].normal);
-      const std::uint64_t squares = squares_of(candidate, axis, work);
-      if (squares != 0) work.list.push_back(pack_surface_entry(p, cover_[p], axis, squares, spacings_[p]));
+      const CutParts best = seen_parts(candidate, work);
+      if (best.seen != 0)
+        work.list.push_back(pack_surface_entry(p, cover_[p], best.cut, best.seen, spacings_[p]));
     }
     return work.list;
   }
@@ -214,20 +214,19 @@ class Preparation {
     reach_.visit_box(corner, corner + size, [&](std::uint32_t p, float) {
       const vec3 d = out_.points[p].position - (corner + 0.5f * size);
       const float spacing = spacings_[p];
-      work.candidates.push_back({p, glm::dot(d, d) / (spacing * spacing), {}, {}, 0});
+      work.candidates.push_back({p, glm::dot(d, d) / (spacing * spacing), {}, {}, {}});
     });
     std::ranges::sort(work.candidates, [](const Work::Candidate& a, const Work::Candidate& b) {
       return a.order < b.order || (a.order == b.order && a.point < b.point);
     });
     for (Work::Candidate& candidate : work.candidates) {
-      const int axis = surface_axis(out_.points[candidate.point].normal);
       work.samples.judge(out_.points[candidate.point], spacings_[candidate.point]);
       for (std::size_t i = 0; i < work.samples.size(); ++i) {
         const SurfaceSamples::Verdict verdict = work.samples.verdict(i);
         if (verdict == SurfaceSamples::asked) {
           candidate.asked.push_back(static_cast<std::uint32_t>(i));
         } else if (verdict == SurfaceSamples::outweighed) {
-          candidate.outweighed |= work.samples.square(i, axis);
+          candidate.outweighed.push_back(static_cast<std::uint32_t>(i));
         }
       }
       if (!candidate.asked.empty()) ask(candidate, work);
@@ -278,35 +277,52 @@ class Preparation {
     });
   }
 
-  /// Squares in which every sample sees the point, sides within bodies and narrow gaps apart. A square
-  /// without samples is as those around it.
-  std::uint64_t squares_of(const Work::Candidate& candidate, int axis, Work& work) const {
-    if (candidate.seen.empty() && candidate.outweighed == 0) return ~std::uint64_t{0};
-    std::uint64_t known = candidate.outweighed, hidden = candidate.outweighed;
-    for (std::size_t i = 0; i < candidate.asked.size(); ++i) {
-      const std::size_t sample = candidate.asked[i];
-      const std::size_t side = work.samples.side(sample, out_.points[candidate.point].normal);
-      if (!work.samples.alive(sample, side)) continue;
-      const bool hides = !candidate.seen.empty() && !candidate.seen[i];
-      if (hides && is_narrow(work.samples, sample, side)) continue;
-      const std::uint64_t bit = work.samples.square(sample, axis);
-      known |= bit;
-      if (hides) hidden |= bit;
+  struct CutParts {
+    int cut;
+    std::uint64_t seen;    ///< parts of the cell, so cut, in which the point is looked up
+    std::size_t lost = 0;  ///< samples that see it, in other parts
+  };
+
+  /// By the cut that loses least: columns serve a wall, cubes the folds of a curtain.
+  CutParts seen_parts(const Work::Candidate& candidate, Work& work) const {
+    const int axis = surface_axis(out_.points[candidate.point].normal);
+    if (candidate.seen.empty() && candidate.outweighed.empty()) return {axis, ~std::uint64_t{0}};
+    CutParts best = cut_so(candidate, axis, work);
+    for (int cut = 0; cut < cut_count && best.lost > 0; ++cut) {
+      const CutParts other = cut_so(candidate, cut, work);
+      if (other.lost < best.lost) best = other;
     }
-    std::uint64_t seen = known & ~hidden;
-    if (seen == 0) return 0;
-    constexpr std::uint64_t not_first = 0xfefefefefefefefe, not_last = 0x7f7f7f7f7f7f7f7f;
-    const auto grown = [](std::uint64_t m) {
-      const std::uint64_t wide = m | (m << 1 & not_first) | (m >> 1 & not_last);
-      return wide | wide << 8 | wide >> 8;
+    return best;
+  }
+
+  /// Parts in which every sample sees the point, sides within bodies and narrow gaps apart. A part without
+  /// samples is as those around it.
+  CutParts cut_so(const Work::Candidate& candidate, int cut, Work& work) const {
+    std::uint64_t known = 0, hidden = 0;
+    for (const std::uint32_t sample : candidate.outweighed) hidden |= work.samples.part(sample, cut);
+    known = hidden;
+    const auto visit = [&](const auto& of_sample) {
+      for (std::size_t i = 0; i < candidate.asked.size(); ++i) {
+        const std::size_t sample = candidate.asked[i];
+        const std::size_t side = work.samples.side(sample, out_.points[candidate.point].normal);
+        if (!work.samples.alive(sample, side)) continue;
+        const bool sees = candidate.seen.empty() || candidate.seen[i];
+        if (sees || !is_narrow(work.samples, sample, side)) of_sample(work.samples.part(sample, cut), sees);
+      }
     };
-    while (~known != 0) {
-      const std::uint64_t near_hidden = grown(known & ~seen) & ~known,
-                          near_seen = grown(seen) & ~known & ~near_hidden;
-      seen |= near_seen;
+    visit([&](std::uint64_t part, bool sees) {
+      known |= part;
+      if (!sees) hidden |= part;
+    });
+    CutParts out{cut, known & ~hidden};
+    visit([&](std::uint64_t part, bool sees) { out.lost += sees && (hidden & part) != 0; });
+    while (out.seen != 0 && ~known != 0) {
+      const std::uint64_t near_hidden = grown_parts(known & ~out.seen, cut) & ~known,
+                          near_seen = grown_parts(out.seen, cut) & ~known & ~near_hidden;
+      out.seen |= near_seen;
       known |= near_hidden | near_seen;
     }
-    return seen;
+    return out;
   }
 
   SurfaceLists& out_;

@@ -26,8 +26,8 @@ class SurfaceSamples {
   vec3 position(std::size_t i) const { return {numbers_[0][i], numbers_[1][i], numbers_[2][i]}; }
   /// Of one side; the other's is −normal.
   vec3 normal(std::size_t i) const { return {numbers_[3][i], numbers_[4][i], numbers_[5][i]}; }
-  /// The bit of the square in which it lies, of the cell seen along an axis.
-  std::uint64_t square(std::size_t i, int axis) const { return std::uint64_t{1} << squares_[i][axis]; }
+  /// The bit of the part of the cell, cut so, in which it lies.
+  std::uint64_t part(std::size_t i, int cut) const { return std::uint64_t{1} << parts_[i][cut]; }
   /// 1 where a normal faces the other side's way.
   std::size_t side(std::size_t i, const vec3& n) const { return glm::dot(normal(i), n) < 0; }
 
@@ -57,7 +57,7 @@ class SurfaceSamples {
  private:
   /// Position, normal, and the weight of what is counted on either side.
   std::array<std::vector<float>, 8> numbers_;
-  std::vector<std::array<std::uint8_t, 3>> squares_;         ///< along each axis
+  std::vector<std::array<std::uint8_t, 4>> parts_;           ///< of each cut
   std::array<std::vector<std::uint8_t>, 2> alive_, narrow_;  ///< of each side; narrow_: 0 where nobody asked
   std::vector<std::int32_t> verdicts_;
   std::vector<float> weights_;

@@ -31,12 +31,30 @@ TEST(StillSurface, PartsCoverTheirTriangleWithinTheBox) {
   EXPECT_LT(some, inside + 0.3f * 2.2f);
 }
 
-TEST(FittedEntry, SquaresAreCountedAcrossTheAxis) {
-  const vec3 place(0.2f, 0.55f, 0.9f);  // squares 1, 4, 7
-  EXPECT_EQ(surface_square(place, 0), 4 + 8 * 7);
-  EXPECT_EQ(surface_square(place, 1), 1 + 8 * 7);
-  EXPECT_EQ(surface_square(place, 2), 1 + 8 * 4);
-  EXPECT_EQ(surface_square({-1, 0.5f, 2}, 1), 0 + 8 * 7) << "the nearest square";
+TEST(FittedEntry, PartsAreCountedByTheCut) {
+  const vec3 place(0.2f, 0.55f, 0.9f);  // eighths 1, 4, 7
+  EXPECT_EQ(surface_part(place, 0), 4 + 8 * 7);
+  EXPECT_EQ(surface_part(place, 1), 1 + 8 * 7);
+  EXPECT_EQ(surface_part(place, 2), 1 + 8 * 4);
+  EXPECT_EQ(surface_part(place, cubes_cut), 0 + 4 * 2 + 16 * 3);
+  EXPECT_EQ(surface_part({-1, 0.5f, 2}, 1), 0 + 8 * 7) << "the nearest part";
+}
+
+TEST(FittedEntry, PartsGrowByAllThatTouchThem) {
+  for (int cut = 0; cut < cut_count; ++cut) {
+    const ivec3 size = cut == cubes_cut ? ivec3(4) : ivec3(8, 8, 1);
+    const auto at = [&](int part) {
+      return ivec3(part % size.x, part / size.x % size.y, part / (size.x * size.y));
+    };
+    for (int part = 0; part < 64; ++part) {
+      std::uint64_t expected = 0;
+      for (int other = 0; other < 64; ++other) {
+        const ivec3 d = glm::abs(at(other) - at(part));
+        if (std::max({d.x, d.y, d.z}) <= 1) expected |= std::uint64_t{1} << other;
+      }
+      EXPECT_EQ(grown_parts(std::uint64_t{1} << part, cut), expected) << cut << " " << part;
+    }
+  }
 }
 
 TEST(FittedEntry, AxisIsThatOfTheLargestComponent) {
@@ -47,13 +65,13 @@ TEST(FittedEntry, AxisIsThatOfTheLargestComponent) {
 
 /// As fitted_lookup.glsl takes an entry apart.
 TEST(FittedEntry, HoldsAllOfAPointInItsBits) {
-  const std::uint64_t squares = 0x123456789abcdef0ull;
-  for (const int axis : {0, 1, 2}) {
-    const uvec4 e = pack_surface_entry(0x5bcde, 5, axis, squares, 0.125f);
+  const std::uint64_t parts = 0x123456789abcdef0ull;
+  for (const int cut : {0, 1, 2, 3}) {
+    const uvec4 e = pack_surface_entry(0x5bcde, 5, cut, parts, 0.125f);
     EXPECT_EQ(e.x & 0x7ffffu, 0x5bcdeu);
     EXPECT_EQ(e.x >> 19 & 7u, 5u);
-    EXPECT_EQ(e.x >> 22, static_cast<std::uint32_t>(axis));
-    EXPECT_EQ((static_cast<std::uint64_t>(e.z) << 32 | e.y), squares);
+    EXPECT_EQ(e.x >> 22, static_cast<std::uint32_t>(cut));
+    EXPECT_EQ((static_cast<std::uint64_t>(e.z) << 32 | e.y), parts);
     EXPECT_EQ(std::bit_cast<float>(e.w), 0.125f);
   }
 }

@@ -1,4 +1,4 @@
-/// Which fitted points light which squares of a surface, under a body that almost touches it.
+/// Which points light which parts of a surface, under a body that almost touches it and in folds.
 
 #include <bit>
 
@@ -60,20 +60,21 @@ FittedPoints around_body() {
   return fitted;
 }
 
-/// Places of the floor points that may light the floor at x and are well within a lookup's reach, about 1 m.
-std::vector<vec3> lighting(const SurfaceLists& surfaces, const vec3& x) {
+/// Places of the points that may light a surface that faces n at x and are well within a lookup's reach,
+/// about 1 m.
+std::vector<vec3> lighting(const SurfaceLists& surfaces, const vec3& x, const vec3& n = {0, 1, 0}) {
   const SurfaceGrid& grid = surfaces.grids[0];
   const vec3 u = (x - grid.origin) / grid.cell_size;
   const ivec3 cell(glm::floor(u));
   const int index = (cell.z * grid.cells.y + cell.y) * grid.cells.x + cell.x;
   const uvec2 range = surfaces.ranges[index];
-  const int square = surface_square(u - vec3(cell), 1);
   std::vector<vec3> places;
   for (unsigned i = 0; i < range.y; ++i) {
     const uvec4 entry = surfaces.lists[range.x + i];
     const rays::SurfacePoint& point = surfaces.points[entry.x & 0x7ffffu];
-    if (point.normal.y > 0 && glm::distance(point.position, x) < 0.8f &&
-        ((square < 32 ? entry.y : entry.z) >> (square & 31) & 1u))
+    const int part = surface_part(u - vec3(cell), static_cast<int>(entry.x >> 22));
+    if (glm::dot(point.normal, n) > 0 && glm::distance(point.position, x) < 0.8f &&
+        ((part < 32 ? entry.y : entry.z) >> (part & 31) & 1u))
       places.push_back(point.position);
   }
   return places;
@@ -121,6 +122,49 @@ TEST(SurfaceLists, APictureBeforeAWallHasItsOwnPoints) {
     const std::vector<vec3> places = lighting(surfaces, {0.1f, front.y, 0.15f});
     EXPECT_GE(places.size(), 4u) << shift;
     for (const vec3& p : places) EXPECT_EQ(p.y, front.y) << shift;
+  }
+}
+
+TEST(SurfaceLists, SheetsOfOneCellHaveTheirOwnPoints) {
+  // Five sheets across an axis: what faces along it sees its own gap alone
+  constexpr float gap = 0.05f;
+  const auto sees = [](const vec3& a, const vec3& b) {
+    return std::floor(a.x / gap) == std::floor(b.x / gap);
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto turned = [&](vec3 v) {
+      for (int k = 0; k < axis; ++k) v = {v.z, v.x, v.y};
+      return v;
+    };
+    const auto turned_back = [&](vec3 v) {
+      for (int k = 0; k < axis; ++k) v = {v.y, v.z, v.x};
+      return v;
+    };
+    scene::Scene scene = body_on_a_floor();
+    scene.instances.clear(), scene.meshes.clear();
+    FittedPoints fitted;
+    for (int sheet = 0; sheet < 5; ++sheet) {
+      const float x = gap * static_cast<float>(sheet) + 0.002f;
+      scene.meshes.push_back(
+          scene::make_quad(turned({x, -0.1f, 0}), turned({0, 1.2f, 0}), turned({0, 0, 1.2f})));
+      scene.meshes.back().material = 0;
+      scene.instances.push_back({sheet, 0, -1, ""});
+      for (int i = 0; i < 64; ++i) {
+        fitted.points.push_back(
+            {turned({x, 0.25f * static_cast<float>(i % 8) - 0.9f, 0.25f * static_cast<float>(i / 8) + 0.1f}),
+             turned({1, 0, 0})});
+        fitted.weights.emplace_back().add(0, 1);
+      }
+    }
+    const SurfaceLists surfaces = prepare_fitted(scene, 0, fitted, [&](const vec3& a, const vec3& b) {
+                                    return sees(turned_back(a), turned_back(b));
+                                  }).surfaces;
+    for (int sheet = 0; sheet < 5; ++sheet) {
+      const vec3 x(gap * static_cast<float>(sheet) + 0.002f, 0.33f, 0.77f);
+      const std::vector<vec3> places = lighting(surfaces, turned(x), turned({1, 0, 0}));
+      EXPECT_GE(places.size(), 4u) << "sheet " << sheet << " across axis " << axis;
+      for (const vec3& p : places) EXPECT_NEAR(turned_back(p).x, x.x, 1e-5f);
+    }
   }
 }
 
@@ -190,7 +234,7 @@ TEST(SurfaceLists, BothSidesOfASheetAreAlike) {
 
 /// Of the cells along x: what their lists hold, each cell with a weight of its own.
 std::string row_text(const SurfaceLists& surfaces, int y, int z) {
-  double points = 0, indices = 0, squares = 0, kinds = 0, spacing = 0;
+  double points = 0, indices = 0, parts = 0, kinds = 0, spacing = 0;
   const ivec3& cells = surfaces.grids[0].cells;
   for (int x = 0; x < cells.x; ++x) {
     const double weight = 1 + 0.1 * x;
@@ -201,13 +245,13 @@ std::string row_text(const SurfaceLists& surfaces, int y, int z) {
       const uvec4 e = surfaces.lists[range.x + i];
       indices += weight * (e.x & 0x7ffffu) * (1 + 0.01 * i);
       kinds += weight * (e.x >> 19);
-      squares += weight * (std::popcount(e.y) + 1.3 * std::popcount(e.z) + 1e-9 * e.y);
+      parts += weight * (std::popcount(e.y) + 1.3 * std::popcount(e.z) + 1e-9 * e.y);
       spacing += weight * static_cast<double>(std::bit_cast<float>(e.w));
     }
   }
   if (points == 0) return {};
   return fmt::format("row {} {}: {:.8g} points {:.8g}, seen from {:.8g}, of kinds {:.8g}, {:.8g} apart\n", y,
-                     z, points, indices, squares, kinds, spacing);
+                     z, points, indices, parts, kinds, spacing);
 }
 
 TEST(SurfaceLists, ListsAreWhatTheyWere) {

@@ -13,11 +13,10 @@ ivec2 fitted_place(int i) { return ivec2(i & (1 << LIST_WIDTH_LOG2) - 1, i >> LI
 uvec4 fitted_entry(int i) { return texelFetch(fitted_lists, fitted_place(i), 0); }
 int fitted_index(uvec4 entry) { return int(entry.x & 0x7ffffu); }
 
-// `squares`: the pixel's square across each axis.
-bool fitted_seen(uvec4 entry, ivec3 squares) {
-  uint axis = entry.x >> 22;
-  int square = axis == 0 ? squares.x : axis == 1 ? squares.y : squares.z;
-  return ((square < 32 ? entry.y : entry.z) >> (square & 31) & 1u) != 0;
+// `parts`: the pixel's part of the cell by each cut.
+bool fitted_seen(uvec4 entry, ivec4 parts) {
+  int part = parts[entry.x >> 22];
+  return ((part < 32 ? entry.y : entry.z) >> (part & 31) & 1u) != 0;
 }
 
 // From the pixel to a point.
@@ -75,12 +74,13 @@ bool fitted_irradiance(Surface s, out vec3 irradiance) {
   int first = int(range.x), count = inside ? int(range.y) : 0;
 
   ivec3 q = clamp(ivec3(f * 8), ivec3(0), ivec3(7));
-  ivec3 squares = ivec3(q.y + 8 * q.z, q.x + 8 * q.z, q.x + 8 * q.y);
+  ivec3 h = q / 2;
+  ivec4 parts = ivec4(q.y + 8 * q.z, q.x + 8 * q.z, q.x + 8 * q.y, h.x + 4 * h.y + 16 * h.z);
 
   // Those that are seen; software renderers leave loops early, but run both sides of every branch
   uvec3 seen = uvec3(0);
   for (int i = 0; i < count; ++i) {
-    uint bit = fitted_seen(fitted_entry(first + i), squares) ? 1u << (i & 31) : 0u;
+    uint bit = fitted_seen(fitted_entry(first + i), parts) ? 1u << (i & 31) : 0u;
     seen |= i < 32 ? uvec3(bit, 0, 0) : i < 64 ? uvec3(0, bit, 0) : uvec3(0, 0, bit);
   }
 

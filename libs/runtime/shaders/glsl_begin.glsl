@@ -1,4 +1,4 @@
-// Light of a cooked file in GLSL: made from ssphh's libs/runtime/shaders, version @PROJECT_VERSION@; cooked files of version 2
+// Light of a cooked file in GLSL: made from ssphh's libs/runtime/shaders, version @PROJECT_VERSION@; cooked files of version 3
 // (docs/cooked-files.md, "In shaders"). For #version 430 and above, 310 es, and Vulkan.
 //
 //   #define SSPHH_BINDING 3                        the file, as it lies on the disk, in a storage buffer; SSPHH_SET, too, under Vulkan

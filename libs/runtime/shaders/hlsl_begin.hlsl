@@ -1,4 +1,4 @@
-// Light of a cooked file in HLSL: made from ssphh's libs/runtime/shaders, version @PROJECT_VERSION@; cooked files of version 2
+// Light of a cooked file in HLSL: made from ssphh's libs/runtime/shaders, version @PROJECT_VERSION@; cooked files of version 3
 // (docs/cooked-files.md, "In shaders"). For shader model 5 and above.
 //
 //   #define SSPHH_REGISTER t3                        the file, as it lies on the disk, in a raw buffer

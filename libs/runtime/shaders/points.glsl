@@ -1,16 +1,16 @@
 
 // --- Points of surfaces: a linear fit to those around that the place sees (points.c) --------------------------------------------
 
-// Whether a mask's square is set
-bool ssphh_masked(int mask, int square) {
+// Whether the bit of a part of the cell is set
+bool ssphh_masked(int mask, int part) {
   uvec4 masks = SSPHH_TEXEL(SSPHH_MASKS + (mask >> 1));
   uint low = (mask & 1) == 0 ? masks.x : masks.z, high = (mask & 1) == 0 ? masks.y : masks.w;
-  return (((square < 32 ? low : high) >> uint(square & 31)) & 1u) != 0u;
+  return (((part < 32 ? low : high) >> uint(part & 31)) & 1u) != 0u;
 }
 
-// The place's cell that holds surface, -1: none; and its squares of 8 x 8 across each axis
-int ssphh_cell(vec3 x, out ivec3 squares) {
-  squares = ivec3(0, 0, 0);
+// The place's cell that holds surface, -1: none; and its part of the cell by each cut
+int ssphh_cell(vec3 x, out ivec4 parts) {
+  parts = ivec4(0, 0, 0, 0);
   for (int g = 0; g < 2; ++g) {
     ivec3 cells = g == 0 ? SSPHH_NEAR_CELLS : SSPHH_FAR_CELLS;
     vec4 grid = g == 0 ? SSPHH_NEAR_GRID : SSPHH_FAR_GRID;
@@ -23,19 +23,24 @@ int ssphh_cell(vec3 x, out ivec3 squares) {
     uint below = (1u << uint(bit & 31)) - 1u;
     int count = bit < 32 ? ssphh_bits(brick.x & below) : ssphh_bits(brick.x) + ssphh_bits(brick.y & below);
     ivec3 q = min(ivec3((u - vec3(at)) * 8.0), ivec3(7, 7, 7));
-    squares = ivec3(q.y + 8 * q.z, q.x + 8 * q.z, q.x + 8 * q.y);
+    parts = ivec4(q.y + 8 * q.z, q.x + 8 * q.z, q.x + 8 * q.y, (q.x >> 1) + 4 * (q.y >> 1) + 16 * (q.z >> 1));
     return int(brick.z) + count;
   }
   return -1;
 }
 
+bool ssphh_has_mask(uint entry) { return (entry >> 31u) != 0u; }
+int ssphh_point_of(uint entry) { return int(entry & 0x1fffffffu); }
+
 // Weight of a point before the fit, 0: it lights nothing here; offset: to it
-float ssphh_point_weight(int point_index, vec3 n, vec3 x, ivec3 squares, bool has_mask, int mask, out vec3 offset, out float spacing) {
+float ssphh_point_weight(uint entry, vec3 n, vec3 x, ivec4 parts, int mask, out vec3 offset, out float spacing) {
+  int point_index = ssphh_point_of(entry);
   vec4 place = ssphh_floats(SSPHH_POINTS + 2 * point_index), normal = ssphh_floats(SSPHH_POINTS + 2 * point_index + 1);
-  uint kind = floatBitsToUint(normal.w), axis = (kind >> 3u) & 3u;
+  uint cover = floatBitsToUint(normal.w), cut = (entry >> 29u) & 3u;
+  int part = cut == 0u ? parts.x : cut == 1u ? parts.y : cut == 2u ? parts.z : parts.w;
   offset = place.xyz - x;
   spacing = place.w;
-  if (has_mask && !ssphh_masked(mask, axis == 0u ? squares.x : axis == 1u ? squares.y : squares.z)) return 0.0;
+  if (ssphh_has_mask(entry) && !ssphh_masked(mask, part)) return 0.0;
   float d2 = dot(offset, offset), s2 = spacing * spacing;
   float t = 1.0 - d2 / (9.0 * s2), facing = (dot(normal.xyz, n) - 0.7) / (1.0 - 0.7);
   float off = dot(offset, n) / (0.5 * spacing + 0.1 * sqrt(d2)), level = 1.0 - off * off;
@@ -43,7 +48,6 @@ float ssphh_point_weight(int point_index, vec3 n, vec3 x, ivec3 squares, bool ha
   t *= t;
   t *= t;
   t *= t;
-  uint cover = kind & 7u;
   float opening = float(1u << cover), q = d2 * opening * opening / s2;
   return t * facing * level * level * (cover == 0u ? 1.0 : 1.0 / (1.0 + q * q));
 }
@@ -62,8 +66,8 @@ vec3 ssphh_of_point(int point_index, vec3 n) {
 // Whether any point lights the place; then its irradiance. Weights are by the normal n of the surface, light by the shading normal.
 bool ssphh_by_points(vec3 x, vec3 n, vec3 shading, out vec3 irradiance) {
   irradiance = vec3(0.0, 0.0, 0.0);
-  ivec3 squares;
-  int cell = ssphh_cell(x, squares);
+  ivec4 parts;
+  int cell = ssphh_cell(x, parts);
   if (cell < 0) return false;
   int first = int(ssphh_word(SSPHH_CELLS, 2 * cell)), first_mask = int(ssphh_word(SSPHH_CELLS, 2 * cell + 1));
   int end = int(ssphh_word(SSPHH_CELLS, 2 * cell + 2));
@@ -78,17 +82,15 @@ bool ssphh_by_points(vec3 x, vec3 n, vec3 shading, out vec3 irradiance) {
   int mask = first_mask;
   for (int i = first; i < end; ++i) {
     uint entry = ssphh_word(SSPHH_ENTRIES, i);
-    bool has_mask = (entry >> 31u) != 0u;
-    int point_index = int(entry & 0x7fffffffu);
     vec3 offset;
     float spacing;
-    float w = ssphh_point_weight(point_index, n, x, squares, has_mask, mask, offset, spacing);
-    if (has_mask) ++mask;
+    float w = ssphh_point_weight(entry, n, x, parts, mask, offset, spacing);
+    if (ssphh_has_mask(entry)) ++mask;
     if (!(w > 0.0)) continue;
     vec2 at = vec2(dot(offset, along), dot(offset, across)) * unit;
     if (total == 0.0) origin = at;
     at -= origin;
-    vec3 e = w * ssphh_of_point(point_index, shading);
+    vec3 e = w * ssphh_of_point(ssphh_point_of(entry), shading);
     spacing *= unit;
     total += w;
     mean += w * at;
@@ -111,11 +113,10 @@ bool ssphh_by_points(vec3 x, vec3 n, vec3 shading, out vec3 irradiance) {
   mask = first_mask;
   for (int j = first; j < end; ++j) {
     uint entry = ssphh_word(SSPHH_ENTRIES, j);
-    bool has_mask = (entry >> 31u) != 0u;
     vec3 offset;
     float spacing;
-    float w = ssphh_point_weight(int(entry & 0x7fffffffu), n, x, squares, has_mask, mask, offset, spacing);
-    if (has_mask) ++mask;
+    float w = ssphh_point_weight(entry, n, x, parts, mask, offset, spacing);
+    if (ssphh_has_mask(entry)) ++mask;
     negative += w * max(dot(slope, vec2(dot(offset, along), dot(offset, across)) * unit - from_here) - 1.0, 0.0);
   }
   float allowed = 0.25 * total;

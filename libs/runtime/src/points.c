@@ -17,7 +17,7 @@ typedef struct {
 
 typedef struct {
   const ssphh_cooked_cell* cell;  // null: none with surface
-  int squares[3];                 // of 8 × 8 across each axis
+  int parts[SSPHH_COOKED_CUTS];   // of each cut
 } found_cell;
 
 static int bits_below(uint64_t mask, unsigned bit) {
@@ -29,16 +29,16 @@ static int bits_below(uint64_t mask, unsigned bit) {
 }
 
 static found_cell find_cell(const ssphh_runtime* rt, const float x[3]) {
-  found_cell found = {NULL, {0, 0, 0}};
+  found_cell found = {NULL, {0, 0, 0, 0}};
   for (int g = 0; g < SSPHH_COOKED_GRIDS; ++g) {
     const ssphh_cooked_grid* grid = &rt->header->surface_grids[g];
     uint32_t at[3];
-    int square[3], inside = 1;
+    int part[3], inside = 1;
     for (int c = 0; c < 3 && inside; ++c) {
       const float u = (x[c] - grid->origin[c]) / grid->cell_size;
       inside = u >= 0 && u < (float)grid->cells[c];
       at[c] = inside ? (uint32_t)u : 0;
-      square[c] = inside ? (int)((u - (float)at[c]) * 8) : 0;
+      part[c] = inside ? (int)((u - (float)at[c]) * 8) : 0;
     }
     if (!inside) continue;
     const uint32_t bricks_x = (grid->cells[0] + 3) / 4, bricks_y = (grid->cells[1] + 3) / 4;
@@ -47,9 +47,10 @@ static found_cell find_cell(const ssphh_runtime* rt, const float x[3]) {
     const unsigned bit = at[0] % 4 + 4 * (at[1] % 4) + 16 * (at[2] % 4);
     if (!(brick->mask >> bit & 1)) return found;
     found.cell = &rt->cells[brick->first + (uint32_t)bits_below(brick->mask, bit)];
-    found.squares[0] = square[1] + 8 * square[2];
-    found.squares[1] = square[0] + 8 * square[2];
-    found.squares[2] = square[0] + 8 * square[1];
+    found.parts[0] = part[1] + 8 * part[2];
+    found.parts[1] = part[0] + 8 * part[2];
+    found.parts[2] = part[0] + 8 * part[1];
+    found.parts[3] = part[0] / 2 + 4 * (part[1] / 2) + 16 * (part[2] / 2);
     return found;
   }
   return found;
@@ -70,7 +71,7 @@ static float weight_of(const ssphh_cooked_point* p, const float offset[3], const
   const float level = 1 - off * off;
   if (!(level > 0)) return 0;
   t *= t, t *= t, t *= t;
-  const uint32_t cover = p->kind & 7;
+  const uint32_t cover = p->cover;
   const float open = (float)(1u << cover), q = d2 * open * open / s2;
   return t * facing * level * level * (cover == 0 ? 1 : 1 / (1 + q * q));
 }
@@ -87,13 +88,14 @@ static uint32_t find_shares(const ssphh_runtime* rt, const float x[3], const flo
   double total = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0, square = 0;
   for (uint32_t i = found.cell[0].entry; i < found.cell[1].entry; ++i) {
     const uint32_t entry = rt->entries[i];
-    const ssphh_cooked_point* p = &rt->points[entry & ~SSPHH_COOKED_MASKED];
-    if (entry & SSPHH_COOKED_MASKED && !(*mask++ >> found.squares[p->kind >> 3 & 3] & 1)) continue;
+    const ssphh_cooked_point* p = &rt->points[entry & SSPHH_COOKED_POINT];
+    const int part = found.parts[entry >> SSPHH_COOKED_CUT_SHIFT & (SSPHH_COOKED_CUTS - 1)];
+    if (entry & SSPHH_COOKED_MASKED && !(*mask++ >> part & 1)) continue;
     const float offset[3] = {p->position[0] - x[0], p->position[1] - x[1], p->position[2] - x[2]};
     const float w = weight_of(p, offset, n);
     if (!(w > 0)) continue;
     share* s = &shares[count++];
-    s->point = entry & ~SSPHH_COOKED_MASKED;
+    s->point = entry & SSPHH_COOKED_POINT;
     s->weight = w;
     s->x = ssphh_runtime_dot(offset, tx) * unit;
     s->y = ssphh_runtime_dot(offset, ty) * unit;

@@ -165,14 +165,14 @@ static int points_hold(const ssphh_cooked_header* h) {
     if (end < first || end - first > SSPHH_COOKED_MOST_LISTED_POINTS || end > h->entry_count) return 0;
     for (uint32_t k = first; k < end; ++k) {
       masks += entries[k] >> 31;
-      if ((entries[k] & ~SSPHH_COOKED_MASKED) >= h->point_count) return 0;
+      if ((entries[k] & SSPHH_COOKED_POINT) >= h->point_count) return 0;
     }
     if (cells[i + 1].mask != masks) return 0;
   }
   if (cells[h->cell_count].entry != h->entry_count || masks != h->mask_count) return 0;
   for (uint32_t i = 0; i < h->point_count; ++i) {
     if (!are_finite(points[i].position, 3) || !are_finite(points[i].normal, 3) ||
-        !is_length(points[i].spacing) || points[i].kind >= 3 << 3)
+        !is_length(points[i].spacing) || points[i].cover > 7)
       return 0;
   }
   return 1;

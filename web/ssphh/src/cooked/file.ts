@@ -15,9 +15,9 @@ export interface CookedFile {
   cells: Uint32Array;
   entries: Uint32Array;
   masks: Uint32Array;
-  /** Eight for each: position, spacing, normal, kind. */
+  /** Eight for each: position, spacing, normal, cover. */
   points: Float32Array;
-  /** The same memory, for `kind`. */
+  /** The same memory, for `cover`. */
   pointWords: Uint32Array;
   light: Float32Array;
 }

@@ -1,8 +1,8 @@
-/** What stands where in a cooked file of version 2 (docs/cooked-files.md). */
+/** What stands where in a cooked file of version 3 (docs/cooked-files.md). */
 
-export const version = 2, headerSize = 376, alignment = 64;
+export const version = 3, headerSize = 376, alignment = 64;
 export const mostGroups = 256, mostProbes = 65535, mostCells = 1 << 24, mostName = 1024, mostPoints = 1 << 19;
-export const mostListedProbes = 32, mostListedPoints = 96, noProbe = 0xffff, mostSight = 1024;
+export const mostListedProbes = 32, mostListedPoints = 96, pointOf = 0x1fffffff, noProbe = 0xffff, mostSight = 1024;
 export const recordFloats = 12, fittedFloats = 32;
 export const magic = [0x53, 0x50, 0x48, 0x43, 0x0d, 0x0a, 0x1a, 0x0a];
 export const checksumAt = 24;

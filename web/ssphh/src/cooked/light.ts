@@ -162,7 +162,7 @@ function aligned(bytes: Uint8Array): Uint8Array {
 }
 
 /**
- * Opens a cooked file (`ssphh cook`, version 2) where it lies: the bytes must stay as they are. Reads all of it once and refuses what is
+ * Opens a cooked file (`ssphh cook`, version 3) where it lies: the bytes must stay as they are. Reads all of it once and refuses what is
  * damaged or contradicts itself, with an `SsphhError` of code `not-cooked`, `bad-version`, `cut-off`, `damaged` or `invalid`. Light groups
  * begin with the scales of the bake. Bytes that begin at no multiple of 8 in their ArrayBuffer are copied.
  */

@@ -1,18 +1,18 @@
 /** Irradiance from points on surfaces: a linear fit in the tangent plane to those around that the place sees. libs/runtime's points.c, in float32. */
 import { groupFloats, probeFloats, type CookedFile } from './file.js';
 import { bitCount, dot3, type Float3 } from './float.js';
-import { mostListedPoints, recordFloats } from './layout.js';
+import { mostListedPoints, pointOf, recordFloats } from './layout.js';
 
 const f = Math.fround;
 const reach = 3, leastCosine = f(0.7), offPlane = f(0.5), offPlaneSlope = f(0.1), ridge = f(0.05), mostNegative = f(0.25);
 
 const sharePoint = new Uint32Array(mostListedPoints);
 const shareWeight = new Float32Array(mostListedPoints), shareX = new Float32Array(mostListedPoints), shareY = new Float32Array(mostListedPoints);
-const squares = new Uint8Array(3), at = new Uint32Array(3), square = new Uint8Array(3);
+const parts = new Uint8Array(4), at = new Uint32Array(3), part = new Uint8Array(3);
 const tangentX = new Float32Array(3), tangentY = new Float32Array(3);
 const basis = new Float32Array(10), sum = new Float32Array(32), e = new Float32Array(3);
 
-/** The place's cell that holds surface, and its squares of 8 × 8 across each axis; −1: there is none. */
+/** The place's cell that holds surface, and its part of the cell by each cut; −1: there is none. */
 function findCell(file: CookedFile, x: Float3): number {
   for (const grid of file.header.grids) {
     let inside = true;
@@ -21,7 +21,7 @@ function findCell(file: CookedFile, x: Float3): number {
       inside = u >= 0 && u < f(grid.cells[c]!);
       if (!inside) break;
       at[c] = u;
-      square[c] = f(f(u - at[c]!) * 8);
+      part[c] = f(f(u - at[c]!) * 8);
     }
     if (!inside) continue;
     const [i, j, k] = at as unknown as [number, number, number];
@@ -30,9 +30,11 @@ function findCell(file: CookedFile, x: Float3): number {
     const bit = (i & 3) + 4 * (j & 3) + 16 * (k & 3), low = file.bricks[brick]!, high = file.bricks[brick + 1]!;
     if ((((bit < 32 ? low : high) >>> (bit & 31)) & 1) === 0) return -1;
     const below = bit < 32 ? bitCount(low & ((1 << bit) - 1)) : bitCount(low) + bitCount(high & ((1 << (bit & 31)) - 1));
-    squares[0] = square[1]! + 8 * square[2]!;
-    squares[1] = square[0]! + 8 * square[2]!;
-    squares[2] = square[0]! + 8 * square[1]!;
+    const px = part[0]!, py = part[1]!, pz = part[2]!;
+    parts[0] = py + 8 * pz;
+    parts[1] = px + 8 * pz;
+    parts[2] = px + 8 * py;
+    parts[3] = (px >> 1) + 4 * (py >> 1) + 16 * (pz >> 1);
     return file.bricks[brick + 2]! + below;
   }
   return -1;
@@ -72,14 +74,14 @@ function findShares(file: CookedFile, x: Float3, n: Float3): number {
   setTangents(n);
   const ax = tangentX[0]!, ay = tangentX[1]!, az = tangentX[2]!, bx = tangentY[0]!, by = tangentY[1]!, bz = tangentY[2]!;
   for (let i = file.cells[2 * cell]!; i < end; ++i) {
-    const entry = entries[i]!, point = entry & 0x7fffffff, p = 8 * point, kind = pointWords[p + 7]!;
+    const entry = entries[i]!, point = entry & pointOf, p = 8 * point, cover = pointWords[p + 7]!;
     if (entry >>> 31) {
-      const of = squares[(kind >>> 3) & 3]!, word = masks[of < 32 ? mask : mask + 1]!;
+      const of = parts[(entry >>> 29) & 3]!, word = masks[of < 32 ? mask : mask + 1]!;
       mask += 2;
       if (((word >>> (of & 31)) & 1) === 0) continue;
     }
     const ox = f(points[p]! - x0), oy = f(points[p + 1]! - x1), oz = f(points[p + 2]! - x2);
-    const w = weightOf(points, kind & 7, p, ox, oy, oz, nx, ny, nz);
+    const w = weightOf(points, cover, p, ox, oy, oz, nx, ny, nz);
     if (!(w > 0)) continue;
     const dx = f(dot3(ox, oy, oz, ax, ay, az) * unit), dy = f(dot3(ox, oy, oz, bx, by, bz) * unit), spacing = f(points[p + 3]! * unit);
     sharePoint[count] = point;

@@ -116,7 +116,7 @@ function cellsHold({ cells, entries, header }: CookedFile): boolean {
     if (end < first || end - first > layout.mostListedPoints || end > header.entryCount) return false;
     for (let k = first; k < end; ++k) {
       masks += entries[k]! >>> 31;
-      if ((entries[k]! & 0x7fffffff) >= header.pointCount) return false;
+      if ((entries[k]! & layout.pointOf) >= header.pointCount) return false;
     }
     if (cells[2 * i + 3] !== masks) return false;
   }
@@ -126,7 +126,7 @@ function cellsHold({ cells, entries, header }: CookedFile): boolean {
 function pointsHold({ points, pointWords }: CookedFile): boolean {
   for (let i = 0; i < points.length; i += 8) {
     if (!areFinite(points.subarray(i, i + 3)) || !areFinite(points.subarray(i + 4, i + 7))) return false;
-    if (!isLength(points[i + 3]!) || pointWords[i + 7]! >= 3 << 3) return false;
+    if (!isLength(points[i + 3]!) || pointWords[i + 7]! > 7) return false;
   }
   return true;
 }

@@ -10,7 +10,7 @@ extern "C" {
 #endif
 
 #define SSPHH_COOKED_MAGIC "SPHC\r\n\x1a\n"
-#define SSPHH_COOKED_VERSION 2u
+#define SSPHH_COOKED_VERSION 3u
 /// Sections begin at multiples of this.
 #define SSPHH_COOKED_ALIGNMENT 64u
 
@@ -22,8 +22,14 @@ extern "C" {
 /// Points of surfaces in one cell.
 #define SSPHH_COOKED_MOST_LISTED_POINTS 96u
 #define SSPHH_COOKED_MOST_POINTS (1u << 19)
-/// Of an entry: a mask tells which parts of the cell see the point; else all do.
+/// Of an entry, whose lowest bits are a point: a mask tells which of 64 parts of the cell see it; else all
+/// do.
 #define SSPHH_COOKED_MASKED 0x80000000u
+#define SSPHH_COOKED_POINT 0x1fffffffu
+/// (entry >> SSPHH_COOKED_CUT_SHIFT) % SSPHH_COOKED_CUTS: how a mask cuts the cell, 0 to 2: into 8 × 8
+/// columns along x, y or z, 3: into 4 × 4 × 4 cubes.
+#define SSPHH_COOKED_CUT_SHIFT 29
+#define SSPHH_COOKED_CUTS 4
 /// Floats of a point's light: E(n) = (n, 1) · light, or nine bands and a rest; see docs/cooked-files.md.
 #define SSPHH_COOKED_RECORD_FLOATS 12u
 #define SSPHH_COOKED_FITTED_FLOATS 32u
@@ -82,8 +88,7 @@ typedef struct {
   float position[3];  ///< world [m]
   float spacing;      ///< of the points around it [m]
   float normal[3];
-  uint32_t
-      kind;  ///< bits 0–2: cover, how near something stands before it; bits 3–4: axis across which masks lie
+  uint32_t cover;  ///< 0 to 7: how near something stands before it
 } ssphh_cooked_point;
 
 typedef struct {
