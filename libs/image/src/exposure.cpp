@@ -53,7 +53,9 @@ float automatic_exposure(const Image& image, ToneCurve curve) {
   constexpr double middle_grey = 0.18, white = 0.9;
   const double grey = std::log2(middle_grey) - mean;
   const double unburnt = std::log2(white) - std::log2(static_cast<double>(highlights));
-  const double clipped = std::clamp(unburnt, grey - 0.5, grey + 0.75);
+  // Half a stop saves what burns out by less; what burns out by a stop and more is lost either way
+  const double burnt = grey - unburnt, held = std::max(std::min(burnt, 1 - burnt), 0.0);
+  const double clipped = burnt > 0 ? grey - held : std::min(unburnt, grey + 0.75);
   double ev = clipped;
   if (curve != ToneCurve::clip) {
     // The mean is shown as bright as clip shows it.

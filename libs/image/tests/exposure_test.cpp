@@ -142,7 +142,9 @@ TEST(AutomaticExposure, HighlightsHoldItDownByUpToHalfAStop) {
   EXPECT_EQ(with_highlights(0.36f), 0.75f);
   EXPECT_EQ(with_highlights(0.9f), 0);
   EXPECT_EQ(with_highlights(1.27f), -0.5f);
-  EXPECT_EQ(with_highlights(100), -0.5f) << "a window in a room may burn out";
+  EXPECT_EQ(with_highlights(1.51f), -0.25f);
+  EXPECT_EQ(with_highlights(2), 0) << "half a stop would not save it";
+  EXPECT_EQ(with_highlights(100), 0) << "a window in a room may burn out";
 }
 
 TEST(AutomaticExposure, DeepShadowsCountAsBlackNotAsLess) {
