@@ -256,6 +256,7 @@ class App {
   void delete_lamp();
   /// Throws Error where a set is not of the scene; with options.force warns.
   void fit_to_scene(probes::ProbeSet& set, const std::string& file) const;
+  LiveLightParams light_params() const;
   void update_time(double seconds);
   void apply_edits();
   /// A renderer with the lamps that there are now; all that it had it is given again.

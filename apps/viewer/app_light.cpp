@@ -76,10 +76,16 @@ void App::use_probes(const std::string& what) {
   }
 }
 
-void App::rebuild_light() {
+LiveLightParams App::light_params() const {
   LiveLightParams params;
   params.geometry = geometry_;
+  params.relight.transport = options.transport;
   params.relight.records.points = options.records;
+  return params;
+}
+
+void App::rebuild_light() {
+  LiveLightParams params = light_params();
   params.places = places_of(document);
   if (params.places.empty()) {
     light.clear();
@@ -98,9 +104,7 @@ void App::rebuild_light() {
 
 void App::place_probes(float spacing) {
   auto scene = std::make_shared<const scene::Scene>(with_materials(*document.scene, document.edits()));
-  LiveLightParams params;
-  params.geometry = geometry_;
-  params.relight.records.points = options.records;
+  LiveLightParams params = light_params();
   params.spacing = spacing;
   job.start("placing probes", [this, scene, params, time = document.time](const Control& control) {
     auto live = std::make_shared<LiveLight>(scene, params, time, control);

@@ -23,6 +23,7 @@ struct ViewerOptions {
   bool force = false;   ///< take a probe file of another scene, with a warning
   bool live = false;    ///< light a file's probes anew, so that they follow lamps and doors
   int records = transport::usual_records;  ///< surface points that keep light while it follows lamps, at most
+  transport::TransportParams transport = {};  ///< of that light
   int width = 1440, height = 810;
   bool panels = true;
   std::vector<std::pair<std::string, std::string>> settings;  ///< by setting_names()

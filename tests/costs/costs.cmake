@@ -1,6 +1,6 @@
 # Read by ctest: seconds of processor time of the dearest entries, by scripts/test-times. On a tree where nothing has run yet ctest
 # starts them first, so that none comes last alone; afterwards it knows from its own runs. Names that are not there do no harm.
-set_tests_properties(npm.ssphh PROPERTIES COST 30)
+set_tests_properties(npm.ssphh PROPERTIES COST 25)
 set_tests_properties(test_view.View PROPERTIES COST 19)
 set_tests_properties(test_render.LightModesInPictures test_pictures.BakedLight PROPERTIES COST 14)
 set_tests_properties(test_cli.Methods test_render.RecordPlaces test_cooked.Of/ShaderLookup PROPERTIES COST 12)

@@ -103,7 +103,7 @@ TEST(RecordPlaces, AreAsManyAsAskedForAndKnowNoLessThanOnesSpreadEvenly) {
 
 TEST(RecordPlaces, AreDenseWhereSurfacesMeet) {
   // In darkness only nearness asks for points.
-  SolvedScene box(scene::make_builtin("box"), 0.05f);
+  SolvedScene box(scene::make_builtin("box"), 0.08f);
   box.lit.assign(box.lit.size(), Irradiance4(0));
   box.reflected.assign(box.reflected.size(), Irradiance4(0));
   const auto gather = box.where_needed(static_cast<int>(transport::most_records), 64);
@@ -127,7 +127,7 @@ TEST(RecordPlaces, AreDenseWhereSurfacesMeet) {
 
 TEST(RecordPlaces, AreDenseWhereSurfelsGotWhatPointsDoNotGive) {
   // Of a room in darkness a patch of the floor is said to have got light, which no point tells.
-  SolvedScene box(scene::make_builtin("box"), 0.05f);
+  SolvedScene box(scene::make_builtin("box"), 0.08f);
   box.lit.assign(box.lit.size(), Irradiance4(0));
   const std::vector<rays::SurfacePoint> all = transport::surfel_points(box.network());
   scene::Bounds bounds;

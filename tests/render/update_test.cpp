@@ -272,6 +272,20 @@ TEST(UpdateOfRecords, OfSomeLampsKeepsPlacesAndTheOtherLamps) {
   for (glm::length_t c = 0; c < 3; ++c) EXPECT_NEAR(sum(set)[c] / sum(old)[c], 2, 0.05) << c;
 }
 
+TEST(UpdateOfRecords, OfAllLampsByNameLeavesNoRecordAsItWas) {
+  const probes::ProbeSet old = with_records(two_closed_rooms());
+  scene::Scene now = two_closed_rooms();
+  for (scene::Light& lamp : now.lights) lamp.intensity *= 2;
+  probes::ProbeSet set = old;
+  bake::TransportBakeReport report;
+  bake::add_transport(trace::TransportScene(now), set, quick_transport(), report, {},
+                      {.light = {.probes = {}, .groups = {{0, 1}}}, .edges = std::vector<std::uint32_t>{}});
+  for (std::size_t p = 0; p < set.surface->points.size(); ++p) {
+    const auto is_old = [&](std::size_t g) { return set.surface->groups[g][p] == old.surface->groups[g][p]; };
+    EXPECT_FALSE(is_old(0) && is_old(1)) << p;
+  }
+}
+
 class UpdateOfTransport : public testing::TestWithParam<probes::LightOperator> {
  protected:
   static bake::TransportBakeParams params() {

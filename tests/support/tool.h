@@ -42,6 +42,11 @@ class ToolProcess {
     }
   }
   void signal(int number) const { ::kill(pid_, number); }
+  bool running() const {
+    siginfo_t ended{};
+    return ::waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+           ended.si_pid == 0;
+  }
   std::string stderr_so_far() const { return slurp(dir_ / "err"); }
   /// Polls until stderr holds `text` or ten seconds have passed.
   bool wait_for_stderr(const std::string& text) const {

@@ -172,8 +172,8 @@ TEST_F(View, FramesOfAPathGlideToWhatSuitsThemAlike) {
 }
 
 /// Runs an xdotool command until `file` exists: the window may not be ready for input at once.
-bool repeat_until(const std::string& command, const std::string& file) {
-  for (int i = 0; i < 20 && !std::filesystem::exists(file); ++i) {
+bool repeat_until(const test::ToolProcess& viewer, const std::string& command, const std::string& file) {
+  for (int i = 0; i < 20 && viewer.running() && !std::filesystem::exists(file); ++i) {
     if (std::system(("timeout 10 xdotool " + command + " > /dev/null 2>&1").c_str()) != 0) continue;
     for (int k = 0; k < 40 && !std::filesystem::exists(file); ++k)
       std::this_thread::sleep_for(std::chrono::milliseconds(25));
@@ -189,9 +189,10 @@ TEST_F(View, AnswersTheWindowSystemsMouseAndKeys) {
       {"view", "builtin:two-rooms", "--size", "480x300", "--probes", "off", "--no-panels"});
   std::filesystem::current_path(before);
   const std::string window = "search --sync --onlyvisible --name two-rooms windowfocus ";
-  EXPECT_TRUE(repeat_until(window + "key --delay 200 F12", path("two-rooms-01.png")));
+  EXPECT_TRUE(repeat_until(viewer, window + "key --delay 200 F12", path("two-rooms-01.png")));
   EXPECT_TRUE(
-      repeat_until(window + "mousemove --window %1 240 150 mousedown 1 sleep 0.3 "
+      repeat_until(viewer,
+                   window + "mousemove --window %1 240 150 mousedown 1 sleep 0.3 "
                             "mousemove --window %1 300 170 sleep 0.3 mouseup 1 sleep 0.2 key --delay 200 F12",
                    path("two-rooms-02.png")));
   viewer.signal(SIGINT);

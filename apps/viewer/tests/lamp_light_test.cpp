@@ -10,7 +10,8 @@ namespace {
 class LampLight : public GlStage {
  protected:
   void prepare() override {
-    options_.records = 512;
+    options_.records = 128;
+    options_.transport = {.directions = 64, .surfel_size = 0.5f, .link_rays = 16};
     options_.settings = {{"exposure", "0"}, {"tonemap", "clip"}, {"antialias", "off"}};
   }
   void ready() override { window_->tick = 1.0 / 1024; }

@@ -9,6 +9,7 @@ class StillPicture : public GlStage {
  protected:
   void prepare() override {
     options_.records = 256;
+    options_.transport = {.directions = 64, .surfel_size = 0.5f, .link_rays = 8};
     options_.settings = {{"exposure", "0"}, {"show", "wipe"}, {"truth-spp", "1"}, {"truth-depth", "1"}};
   }
   void ready() override {

@@ -129,5 +129,37 @@ TEST(Cook, TellsWhatIsLost) {
   EXPECT_THAT(with.lost, Not(Contains(HasSubstr("--scene"))));
 }
 
+TEST(Cook, LightThatIsTheSameAllOverIsSoAtOtherPlaces) {
+  probes::ProbeSet set = set_of_two_rooms(OnSurfaces::records, 2), places = set;
+  probes::RecordLight even(0);
+  even[3] = {1, 2, 3};
+  for (std::vector<probes::PackedRecordLight>& group : set.surface->groups)
+    for (std::size_t i = 0; i < group.size(); ++i)
+      group[i] = probes::pack(even, set.surface->points[i].normal);
+  probes::merge_groups(set);
+  places.surface->points = places_on_surfaces(300, 6);
+  const scene::Scene scene = two_rooms_with_a_wall();
+  const TriangleSource source(scene);
+  const cook::CookScene cook_scene{scene, source};
+  const OpenedFile own(cook::cook(set, &cook_scene, {8}).bytes),
+      moved(cook::cook(set, &cook_scene, {8, &places}).bytes);
+  int same = 0;
+  for (const rays::SurfacePoint& at : places_on_surfaces(50, 3)) {
+    const vec3 expected = own.irradiance(at);
+    EXPECT_GT(expected.x, 0);
+    if (glm::length(moved.irradiance(at) - expected) < 0.02f * glm::length(expected)) ++same;
+  }
+  EXPECT_GE(same, 45) << "the others look up probes";
+}
+
+TEST(Cook, LightOfPointsThatStandElsewhereIsNotSwappedIn) {
+  const probes::ProbeSet set = set_of_two_rooms(OnSurfaces::records, 2);
+  probes::ProbeSet shifted = set;
+  shifted.surface->points[0].position.x += 1e-5f;
+  const OpenedFile file(cook_two_rooms(set, 8));
+  const std::vector<std::byte> other = cook_two_rooms(shifted, 8);
+  EXPECT_EQ(ssphh_runtime_swap_light(file.runtime, other.data(), other.size()), SSPHH_RUNTIME_OTHER_GEOMETRY);
+}
+
 }  // namespace
 }  // namespace ssphh::test

@@ -69,5 +69,28 @@ TEST(SceneStore, AJobIsDoneInThePoseThatItNames) {
   EXPECT_NE(light_at(0.75f), light_at(0));
 }
 
+/// Who is killed while it fetches must be able to go on.
+TEST(SceneStore, AFileThatIsOnItsWayCanBeWrittenByWhoFetchesIt) {
+  const PackedScene packed("cornell");
+  const TempDir dir;
+  DiskCache cache(dir.path(), max_package_bytes);
+  SceneStore scenes(cache);
+  const FetchChunk fetch = packed.fetch();
+  int seen = 0;
+  const FetchChunk looking = [&](const Hash128& package, const Hash128& blob, std::uint64_t at,
+                                 std::uint64_t size) {
+    for (const auto& file : std::filesystem::directory_iterator(dir.path())) {
+      if (file.path().extension() != ".part") continue;
+      using enum std::filesystem::perms;
+      EXPECT_EQ(file.status().permissions() & (owner_all | others_write | sticky_bit),
+                owner_read | owner_write);
+      ++seen;
+    }
+    return fetch(package, blob, at, size);
+  };
+  scenes.get(packed.ref(), looking, {});
+  EXPECT_GT(seen, 0);
+}
+
 }  // namespace
 }  // namespace ssphh::farm

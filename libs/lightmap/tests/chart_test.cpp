@@ -105,6 +105,13 @@ TEST(Charts, CurvedThingsFallIntoSeveralThatStretchLittle) {
   }
 }
 
+TEST(Charts, AreCutByDefaultWhereLightWouldNotBlend) {
+  const ChartParams params;
+  EXPECT_EQ(params.uvs, UvChoice::automatic);
+  EXPECT_EQ(params.crease, 0.35f) << "20 degrees";
+  EXPECT_EQ(params.cone, 0.87f) << "50 degrees";
+}
+
 TEST(Charts, ASurfaceThatWindsAboveItselfIsCutAndNotLaidOnItself) {
   // Three turns of a ramp: all normals point up, and all triangles hang together.
   scene::Mesh ramp;

@@ -4,12 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <ssphh/core/file.h>
+#include <ssphh/image/exposure.h>
+#include <ssphh/image/resample.h>
 #include <ssphh/pipeline/bake_scene.h>
+#include <ssphh/pipeline/exposure.h>
 #include <ssphh/pipeline/relit.h>
 #include <ssphh/pipeline/render_scene.h>
 #include <ssphh/pipeline/scene_options.h>
 #include <ssphh/pipeline/scene_probes.h>
+#include <ssphh/pipeline/sky_options.h>
 #include <ssphh/scene/builtin.h>
+#include <ssphh/scene/query.h>
 
 #include "error_message.h"
 #include "temp_dir.h"
@@ -61,6 +66,49 @@ TEST(Aimed, TurnsWhereALampShinesAndLeavesItsPlace) {
     EXPECT_NEAR(glm::determinant(turned), 1, 1e-6f);
     EXPECT_EQ(turned[3], world[3]);
   }
+}
+
+TEST(Places, AreFewEnoughUnlessMoreAreAskedFor) {
+  EXPECT_EQ(PlaceOptions().max_probes, 4096);
+  EXPECT_EQ(PlaceOptions().levels, 1);
+}
+
+TEST(SceneDifference, NamesTheTimeWhereSomethingMoves) {
+  for (const char* name : {"two-rooms", "box"}) {
+    const scene::Scene scene = scene::make_builtin(name);
+    const std::vector<std::string> groups = scene::light_groups(scene);
+    probes::ProbeSet set;
+    set.generator.scene = scene.name, set.generator.scene_hash = scene::light_hash(scene);
+    EXPECT_EQ(scene_difference(set, scene, groups, std::nullopt), "") << name;
+    EXPECT_EQ(scene_difference(set, scene, groups, 0), "") << name;
+    EXPECT_EQ(scene_difference(set, scene, groups, 0.5f),
+              scene::animation_duration(scene) > 0 ? "time 0 s, now 0.5 s" : "")
+        << name;
+  }
+}
+
+TEST(SunSky, SaysWhichWordItCannotRead) {
+  const auto said_of = [](const std::string& date, const std::string& time, const std::string& place) {
+    SkyOptions options;
+    options.date = date, options.time_of_day = time, options.place = place;
+    return test::message_of([&] { sun_sky_of(options); });
+  };
+  EXPECT_EQ(said_of("2026-06-21", "17:30", "48.1,11.6"), "no error");
+  EXPECT_THAT(said_of("June", "17:30", "48.1,11.6"), testing::AllOf(HasSubstr("--date"), HasSubstr("June")));
+  EXPECT_THAT(said_of("2026-06-21", "late", "48.1,11.6"),
+              testing::AllOf(HasSubstr("--time-of-day"), HasSubstr("late")));
+  EXPECT_THAT(said_of("2026-06-21", "17:30", "Munich"),
+              testing::AllOf(testing::StartsWith("--place"), HasSubstr("Munich")));
+}
+
+TEST(SuitableExposure, LooksAtALargePictureMadeSmall) {
+  // One pixel of nine is lit: as many as suit a picture of 160 show their mean alone.
+  image::Image noisy(480, 240);
+  for (int y = 0; y < noisy.height; ++y)
+    for (int x = 0; x < noisy.width; ++x) noisy.set_rgb(x, y, vec3(x % 3 == 1 && y % 3 == 1 ? 9 : 0));
+  const float plain = image::automatic_exposure(image::resize(noisy, 160, 80));
+  EXPECT_EQ(suitable_exposure(noisy), plain);
+  EXPECT_NE(image::automatic_exposure(noisy), plain);
 }
 
 class BakeOfABox : public testing::Test {

@@ -153,5 +153,10 @@ TEST(Losses, NameWhatASetHasAndATargetHasNot) {
   EXPECT_THAT(test::message_of([&] { only_group(set, "sky"); }), testing::HasSubstr("hierarchy"));
 }
 
+TEST(Scales, GridsHaveAsManyCellsAsCommonTexturesHold) {
+  EXPECT_EQ(GridParams().most_cells, 290);
+  EXPECT_EQ(GridParams().most, std::size_t{1} << 20);
+}
+
 }  // namespace
 }  // namespace ssphh::probe_export

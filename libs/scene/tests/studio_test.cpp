@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <ssphh/core/math.h>
 #include <ssphh/core/sphere.h>
 #include <ssphh/image/sphere_map.h>
 #include <ssphh/scene/query.h>
@@ -43,6 +44,17 @@ TEST(Studio, TakesThePlaceOfAnotherEnvironment) {
   scene.environment.emplace().color = vec3(7);
   add_studio(scene), add_studio(other);
   EXPECT_EQ(scene_hash(scene), scene_hash(other));
+}
+
+TEST(Studio, HasItsSoftLightsWhereTheyAreDescribed) {
+  for (const vec3& lamp : {vec3(1, 1.6f, 1.2f), vec3(-2, 1, 0.5f)}) {
+    const Frame around = Frame::around(glm::normalize(lamp));
+    for (int i = 0; i < 8; ++i) {
+      const float turn = 2 * pi * static_cast<float>(i) / 8;
+      const vec3 beside = around.to_world({0.3f * std::cos(turn), 0.3f * std::sin(turn), 0.954f});
+      EXPECT_LT(studio_radiance(beside), studio_radiance(glm::normalize(lamp))) << i;
+    }
+  }
 }
 
 }  // namespace

@@ -296,5 +296,16 @@ TEST(Scattering, PartlyGlassIsTheMeanOfBoth) {
   }
 }
 
+TEST(Glass, SmoothMirrorsTurnLightAboutTheirNormal) {
+  const vec3 wo = glm::normalize(vec3(0.3f, 0.5f, 0.8f));
+  for (const GlassParams& glass : {sheet(), body(false), body(true)}) {
+    const auto sample = GlassFrom(glass, wo).sample_mirrored({0.4f, 0.7f});
+    ASSERT_TRUE(sample);
+    EXPECT_EQ(sample->wi, vec3(-wo.x, -wo.y, wo.z));
+    EXPECT_EQ(sample->weight, glass_shares(glass, wo.z).reflected);
+    EXPECT_EQ(sample->pdf, 0);
+  }
+}
+
 }  // namespace
 }  // namespace ssphh::shading::test

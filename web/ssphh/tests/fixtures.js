@@ -8,7 +8,7 @@ assert(tool && lookUp, 'run tests/run TOOL LOOK_UP FOLDER');
 const folder = new URL('../../fixtures/', import.meta.url).pathname;
 
 export const scenes = ['cornell', 'two-rooms', 'random?seed=7'];
-export const kinds = { points: ['--records', '600'], weights: ['--records', '0', '--fit'] };
+export const kinds = { points: ['--records', '200'], weights: ['--records', '0', '--fit'] };
 
 export function run(...words) {
   return execFileSync(tool, [...words, '--progress', 'none'], { encoding: 'utf8', stdio: 'pipe' });
@@ -28,7 +28,7 @@ export function made(name, make) {
 export function probeFile(scene, kind, extra = [], end = '.sphl') {
   return made(`${scene.replace(/\W+/g, '-')}-${kind}${extra.join('').replace(/\W+/g, '-')}${end}`, path =>
     run('bake', `builtin:${scene}`, '-o', path, '--operator', 'surfel', '--viz', 'off', '--quality', 'draft', '--probes', '12', ...kinds[kind],
-      '--surfel-size', scene.startsWith('random') ? '1' : '0.25', ...extra));
+      '--surfel-size', scene.startsWith('random') ? '2' : '0.5', ...extra));
 }
 
 export function cookedFile(scene, kind, extra = [], cookOptions = ['--scene', `builtin:${scene}`, '--sight', '16']) {
