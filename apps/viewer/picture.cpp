@@ -119,7 +119,7 @@ realtime::FrameSettings frame_settings(const Settings& settings) {
   out.indirect_scale = needs_truth(settings) ? 1 : settings.indirect_scale;
   using enum realtime::View;
   constexpr realtime::View views[] = {lit, direct, indirect, albedo, normal, shadow, chosen_sphl, indirect};
-  out.view = views[settings.debug];  // in the order of DebugView
+  out.view = views[static_cast<int>(settings.debug)];  // in the order of DebugView
   return out;
 }
 

@@ -61,7 +61,7 @@ std::vector<LampNumber> lamp_numbers(const LightEdit& light) {
   // In the order of the types
   constexpr const char* units[] = {"W/sr", "W/sr", "W/m²", "W/(sr m²)", "times"};
   std::vector<LampNumber> numbers = {
-      {"intensity", units[type],
+      {"intensity", units[static_cast<int>(type)],
        "Point and spot: power per solid angle. Sun: irradiance of a plane that faces it. Sphere: radiance of "
        "its surface. SPHL: a factor on its emission.",
        0.001f, 0, 0, 1e6f}};

@@ -96,7 +96,7 @@ void draw_lamp(App& app) {
   const LightEdit now = app.document.edits().lights[i];
   const mat4 world = app.document.lighting().lights[i].world;
   heading(light.name.c_str());
-  note(type_names[light.type]);
+  note(type_names[static_cast<int>(light.type)]);
 
   draw_name(app, i);
   draw_numbers(app, i);
