@@ -3,7 +3,7 @@
 if(SSPHH_ARCH)
   set(architecture $<$<COMPILE_LANGUAGE:CXX>:-march=${SSPHH_ARCH}>)
 else()
-  set(vectors_of_any_width $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>)
+  set(vectors_of_any_width $<$<CXX_COMPILER_ID:GNU,Clang>:-Wno-psabi>)
   set(architecture -ffp-contract=off)  # where others have fused multiply-adds, bits are these, too
 endif()
 add_library(ssphh_compile_options INTERFACE)

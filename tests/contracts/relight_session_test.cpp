@@ -5,6 +5,7 @@
 #include <ssphh/scene/query.h>
 #include <ssphh/transport/direct_field.h>
 #include <ssphh/transport/session_sets.h>
+#include <ssphh/transport/surface_gather.h>
 
 #include "contract.h"
 #include "unruly_source.h"
@@ -126,6 +127,10 @@ std::vector<Contract> of_input() {
                     },
                     {"emission", "finite"}),
       refuses_input("EmittedOfNoProbe", [](auto& s) { s.emitted(99); }, {"probe 99"}),
+      refuses_input("ArrivingOfNoGroup", [](auto& s) { s.arriving(9, 0); }, {"light group"}),
+      refuses_input("ArrivingOfAGroupBelowZero", [](auto& s) { s.arriving(-1, 0); }, {"light group"}),
+      refuses_input("ArrivingAtNoProbe", [](auto& s) { s.arriving(0, 99); }, {"probe 99"}),
+      refuses_input("KeptDirectOfNoGroup", [](auto& s) { s.kept_direct(0); }, {"surface records"}),
       refuses_input("EmissionProfileWithoutRays", [](auto& s) { s.emission_profile(vec3(0), 1, 2, 0); },
                     {"rays"}),
       refuses_input("EmissionProfileOfNoPlace", [](auto& s) { s.emission_profile(vec3(nan), 1, 2); },
@@ -201,6 +206,41 @@ std::vector<Contract> of_input() {
   };
 }
 
+std::vector<Contract> of_records() {
+  using transport::GatherParams;
+  const auto kept = [] {
+    auto s = lit();
+    s->session.keep_records({.points = 16, .rays = 8});
+    return s;
+  };
+  const auto stay = [](Session& s) {
+    EXPECT_GT(s.session.record_light().size(), 0u);
+    EXPECT_EQ(s.session.gather()->points().size(), s.session.record_light().size());
+    is_up_to_date(s);
+  };
+  const auto refuses_records = [&](const std::string& given, const GatherParams& params,
+                                   std::vector<std::string> words) {
+    return refuses(
+        "KeptRecords", given, kept, [params](Session& s) { s.session.keep_records(params); },
+        std::move(words), stay);
+  };
+  const auto refuses_points = [&](const std::string& given, const std::vector<rays::SurfacePoint>& points,
+                                  std::vector<std::string> words) {
+    return refuses(
+        "KeptRecords", given, kept, [points](Session& s) { s.session.keep_records_at(points, {.rays = 8}); },
+        std::move(words), stay);
+  };
+  return {
+      refuses_records("FewerThanNone", {.points = -1}, {"-1 points"}),
+      refuses_records("MoreThanCanBeKept", {.points = 65537}, {"65537 points"}),
+      refuses_records("OfThreeRays", {.points = 16, .rays = 3}, {"gather rays", "4..65536"}),
+      refuses_records("OfNoGroup", {.points = 16, .rays = 8, .baked = {9}}, {"light group"}),
+      refuses_points("AtNoPlace", {{vec3(nan), {0, 1, 0}}}, {"finite"}),
+      refuses_points("OfNoNormal", {{vec3(0), vec3(nan)}}, {"finite"}),
+      refuses_points("AtMorePlacesThanCanBeKept", std::vector<rays::SurfacePoint>(65537), {"at most 65536"}),
+  };
+}
+
 std::vector<Contract> of_sources() {
   return {
       refuses("TransportSource", "WhoseLightIsOfNoGroup",
@@ -216,6 +256,7 @@ std::vector<Contract> of_sources() {
 }
 
 SSPHH_CONTRACTS(RelightSession, of_input());
+SSPHH_CONTRACTS(KeptRecords, of_records());
 SSPHH_CONTRACTS(TransportSource, of_sources());
 
 /// A source that fails once, in each of the calls that an update makes in turn: the light stays, and the next

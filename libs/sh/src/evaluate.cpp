@@ -64,22 +64,24 @@ void eval_basis(int degree, std::span<const float> x, std::span<const float> y, 
   require(y.size() == count && z.size() == count, "basis functions", "x, y and z differ in number");
   require(out.size() >= coefficients * count, "basis functions", "there is no room for all of them");
   const RecurrenceTable<float>& table = recurrence_table_float();
-  float8 values[max_coefficient_count];
-  for (std::size_t first = 0; first < count; first += lane_count) {
-    const std::size_t n = std::min<std::size_t>(lane_count, count - first);
-    float8 dx{}, dy{}, dz{};
-    const auto load = [&](std::span<const float> from, float8& to) {
-      n == lane_count ? void(__builtin_memcpy(&to, &from[first], sizeof to))
-                      : void(__builtin_memcpy(&to, &from[first], n * sizeof(float)));
-    };
-    load(x, dx), load(y, dy), load(z, dz);
-    eval_recurrence(table, degree, dx, dy, dz, values);
-    for (std::size_t k = 0; k < coefficients; ++k) {
-      float* to = out.data() + k * count + first;
-      n == lane_count ? void(__builtin_memcpy(to, &values[k], sizeof(float8)))
-                      : void(__builtin_memcpy(to, &values[k], n * sizeof(float)));
+  for_this_cpu([&]() SSPHH_IN_LOOP {
+    float8 values[max_coefficient_count];
+    for (std::size_t first = 0; first < count; first += lane_count) {
+      const std::size_t n = std::min<std::size_t>(lane_count, count - first);
+      float8 dx{}, dy{}, dz{};
+      const auto load = [&](std::span<const float> from, float8& to) SSPHH_IN_LOOP {
+        n == lane_count ? void(__builtin_memcpy(&to, &from[first], sizeof to))
+                        : void(__builtin_memcpy(&to, &from[first], n * sizeof(float)));
+      };
+      load(x, dx), load(y, dy), load(z, dz);
+      eval_recurrence(table, degree, dx, dy, dz, values);
+      for (std::size_t k = 0; k < coefficients; ++k) {
+        float* to = out.data() + k * count + first;
+        n == lane_count ? void(__builtin_memcpy(to, &values[k], sizeof(float8)))
+                        : void(__builtin_memcpy(to, &values[k], n * sizeof(float)));
+      }
     }
-  }
+  });
 }
 
 }  // namespace ssphh::sh

@@ -14,20 +14,22 @@ RadianceSh project_samples(int degree, std::span<const vec3> directions, std::sp
   require(weights.size() == directions.size() && radiance.size() == directions.size(), "projection",
           "directions, weights and radiance differ in number");
   ProjectionSum sum(degree, 1, {});
-  for (std::size_t first = 0; first < directions.size(); first += lane_count) {
-    const auto lanes = static_cast<int>(std::min<std::size_t>(lane_count, directions.size() - first));
-    float8 x{}, y{}, z{}, r{}, g{}, b{};
-    for (int i = 0; i < lanes; ++i) {
-      const std::size_t sample = first + static_cast<std::size_t>(i);
-      const vec3 light = static_cast<float>(weights[sample]) * radiance[sample];
-      x[i] = directions[sample].x, y[i] = directions[sample].y, z[i] = directions[sample].z;
-      r[i] = light.x, g[i] = light.y, b[i] = light.z;
+  for_this_cpu([&]() SSPHH_IN_LOOP {
+    for (std::size_t first = 0; first < directions.size(); first += lane_count) {
+      const auto lanes = static_cast<int>(std::min<std::size_t>(lane_count, directions.size() - first));
+      float8 x{}, y{}, z{}, r{}, g{}, b{};
+      for (int i = 0; i < lanes; ++i) {
+        const std::size_t sample = first + static_cast<std::size_t>(i);
+        const vec3 light = static_cast<float>(weights[sample]) * radiance[sample];
+        x[i] = directions[sample].x, y[i] = directions[sample].y, z[i] = directions[sample].z;
+        r[i] = light.x, g[i] = light.y, b[i] = light.z;
+      }
+      sum.add_direction_block(x, y, z);
+      float8* light = sum.light();
+      light[0] = r, light[1] = g, light[2] = b;
+      sum.finish_block();
     }
-    sum.add_direction_block(x, y, z);
-    float8* light = sum.light();
-    light[0] = r, light[1] = g, light[2] = b;
-    sum.finish_block();
-  }
+  });
   return sum.result();
 }
 

@@ -50,7 +50,7 @@ OctantPlace octant_place(int axis, int octant) {
 
 using float4 = float __attribute__((vector_size(16)));
 
-float8 join(const float* low, const float* high) {
+SSPHH_IN_LOOP inline float8 join(const float* low, const float* high) {
   float4 a, b;
   __builtin_memcpy(&a, low, sizeof a);
   __builtin_memcpy(&b, high, sizeof b);
@@ -59,7 +59,7 @@ float8 join(const float* low, const float* high) {
 
 // Eight consecutive RGB texels to one vector per channel: five shuffles within 128-bit halves (Melax, 3D
 // Vector Normalization Using 256-Bit Intel AVX, 2011). `backwards` reverses the texels at no cost.
-void load_rgb8(const float* p, bool backwards, float8* rgb) {
+SSPHH_IN_LOOP inline void load_rgb8(const float* p, bool backwards, float8* rgb) {
   const int low = backwards ? 12 : 0, high = 12 - low;
   const float8 a = join(p + low, p + high);          // r g b r per half
   const float8 b = join(p + low + 4, p + high + 4);  // g b r g
@@ -78,7 +78,8 @@ void load_rgb8(const float* p, bool backwards, float8* rgb) {
 }
 
 // Texels column, column ± 1, … of one row; lanes beyond `lanes` are 0.
-void load_texels(const float* row, int column, bool backwards, int lanes, int channels, float8* rgb) {
+SSPHH_IN_LOOP inline void load_texels(const float* row, int column, bool backwards, int lanes, int channels,
+                                      float8* rgb) {
   if (lanes == lane_count && channels == 3) {
     load_rgb8(row + 3 * (backwards ? column - (lane_count - 1) : column), backwards, rgb);
     return;
@@ -90,7 +91,7 @@ void load_texels(const float* row, int column, bool backwards, int lanes, int ch
   }
 }
 
-void butterfly(float8& even, float8& odd) {
+SSPHH_IN_LOOP inline void butterfly(float8& even, float8& odd) {
   const float8 sum = even + odd;
   odd = even - odd;
   even = sum;
@@ -98,7 +99,7 @@ void butterfly(float8& even, float8& odd) {
 
 // light[class] = weight · Σ_octant ± light[octant], negative where class and octant share an odd number of
 // bits.
-void combine_octants(const float8& weight, float8* light) {
+SSPHH_IN_LOOP inline void combine_octants(const float8& weight, float8* light) {
   for (int c = 0; c < 3; ++c) {
     float8 v0 = light[c] * weight, v1 = light[3 + c] * weight, v2 = light[6 + c] * weight,
            v3 = light[9 + c] * weight;
@@ -112,7 +113,7 @@ void combine_octants(const float8& weight, float8* light) {
   }
 }
 
-float8 load8(const std::vector<float>& values, int first) {
+SSPHH_IN_LOOP inline float8 load8(const std::vector<float>& values, int first) {
   float8 v;
   __builtin_memcpy(&v, &values[first], sizeof v);
   return v;
@@ -157,41 +158,43 @@ RadianceSh CubeProjector::project(const CubeFaces& faces, int channels) const {
   static const std::array<int, max_coefficient_count> classes = parity_classes();
   ProjectionSum sum(degree_, octant_count, classes);
   const int stride = padded(half_), middle = face_size_ / 2;
-  for (int axis = 0; axis < 3; ++axis) {
-    OctantPlace places[octant_count];
-    for (int octant = 0; octant < octant_count; ++octant) places[octant] = octant_place(axis, octant);
-    for (int j = 0; j < half_; ++j) {
-      const float t = half_coordinates_[j];
-      for (int i = 0; i < half_; i += lane_count) {
-        const int lanes = std::min(lane_count, half_ - i);
+  for_this_cpu([&]() SSPHH_IN_LOOP {
+    for (int axis = 0; axis < 3; ++axis) {
+      OctantPlace places[octant_count];
+      for (int octant = 0; octant < octant_count; ++octant) places[octant] = octant_place(axis, octant);
+      for (int j = 0; j < half_; ++j) {
+        const float t = half_coordinates_[j];
+        for (int i = 0; i < half_; i += lane_count) {
+          const int lanes = std::min(lane_count, half_ - i);
 
-        // Evaluate the basis in the octant where x, y and z are positive.
-        const float8 s = load8(half_coordinates_, i);
-        const float8 major = load8(half_major_, j * stride + i);
-        const float8 across = s * major, down = t * major;
-        if (axis == 0) {
-          sum.add_direction_block(major, down, across);
-        } else if (axis == 1) {
-          sum.add_direction_block(across, major, down);
-        } else {
-          sum.add_direction_block(across, down, major);
-        }
+          // Evaluate the basis in the octant where x, y and z are positive.
+          const float8 s = load8(half_coordinates_, i);
+          const float8 major = load8(half_major_, j * stride + i);
+          const float8 across = s * major, down = t * major;
+          if (axis == 0) {
+            sum.add_direction_block(major, down, across);
+          } else if (axis == 1) {
+            sum.add_direction_block(across, major, down);
+          } else {
+            sum.add_direction_block(across, down, major);
+          }
 
-        // Read the eight mirror images and form their even and odd sums.
-        float8* light = sum.light();
-        for (int octant = 0; octant < octant_count; ++octant) {
-          const OctantPlace& place = places[octant];
-          const int y = place.mirrored_rows ? face_size_ - 1 - middle - j : middle + j;
-          const int x = place.mirrored_columns ? face_size_ - 1 - middle - i : middle + i;
-          const float* row = faces[place.face].data() +
-                             static_cast<std::size_t>(y) * static_cast<std::size_t>(face_size_ * channels);
-          load_texels(row, x, place.mirrored_columns, lanes, channels, light + octant * 3);
+          // Read the eight mirror images and form their even and odd sums.
+          float8* light = sum.light();
+          for (int octant = 0; octant < octant_count; ++octant) {
+            const OctantPlace& place = places[octant];
+            const int y = place.mirrored_rows ? face_size_ - 1 - middle - j : middle + j;
+            const int x = place.mirrored_columns ? face_size_ - 1 - middle - i : middle + i;
+            const float* row = faces[place.face].data() +
+                               static_cast<std::size_t>(y) * static_cast<std::size_t>(face_size_ * channels);
+            load_texels(row, x, place.mirrored_columns, lanes, channels, light + octant * 3);
+          }
+          combine_octants(load8(half_solid_angles_, j * stride + i), light);
+          sum.finish_block();
         }
-        combine_octants(load8(half_solid_angles_, j * stride + i), light);
-        sum.finish_block();
       }
     }
-  }
+  });
   return sum.result();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// The recurrence of evaluate.h, for scalars and for SIMD vectors alike.
 
+#include <ssphh/core/for_this_cpu.h>
 #include <ssphh/sh/coefficients.h>
 
 namespace ssphh::sh {
@@ -23,8 +24,8 @@ const RecurrenceTable<double>& recurrence_table_double();
 
 /// `Value` is Real or a vector of it; out[k · stride] = Y_k(x, y, z).
 template <class Value, class Real>
-inline void eval_recurrence(const RecurrenceTable<Real>& table, int degree, const Value& x_, const Value& y_,
-                            const Value& z_, Value* out) {
+SSPHH_IN_LOOP inline void eval_recurrence(const RecurrenceTable<Real>& table, int degree, const Value& x_,
+                                          const Value& y_, const Value& z_, Value* out) {
   const Value x = x_, y = y_, z = z_;        // `out` cannot alias these
   Value cosine = Value{} + Real(1), sine{};  // Re and Im of (x + iy)^m
   for (int m = 0; m <= degree; ++m) {

@@ -99,7 +99,7 @@ void TransportNetwork::Data::blend_poses() {
 }
 
 std::size_t TransportNetwork::pose_bytes() const {
-  std::size_t bytes = 0;
+  std::size_t bytes = data_->kept.bytes();
   for (const PreparedPose& pose : data_->prepared) {
     bytes += pose.links.size() * sizeof(Link) + pose.rows.size() * sizeof(pose.rows[0]) +
              pose.hits.size() * sizeof(Resolved);

@@ -6,6 +6,7 @@
 #include <ssphh/core/require.h>
 #include <ssphh/transport/network.h>
 
+#include "kept_poses.h"
 #include "pace.h"
 
 namespace ssphh::transport {
@@ -38,13 +39,6 @@ struct PlacedPart {
 
 /// Links start so far above their surfel, in surfel sizes.
 inline constexpr float link_lift = 2e-3f;
-
-struct Resolved {
-  std::int32_t patch = no_patch;
-  std::uint32_t albedo = 0;
-  std::uint16_t emission = 0;
-  float distance = 0;
-};
 
 /// The part of the operators that moves, at one time.
 struct PreparedPose {
@@ -111,6 +105,7 @@ struct TransportNetwork::Data {
   std::vector<mat4> poses;
   std::vector<PlacedPart> placed;
   PoseWork pose_work;
+  KeptPoses kept;
 
   void check_part(int part) const {
     require(part >= 0 && static_cast<std::size_t>(part) < poses.size(), "part",
@@ -173,12 +168,17 @@ struct TransportNetwork::Data {
   /// reached.
   bool go_on_to(float time, bool between, Pace& pace);
   void place_parts(float time);
+  void place_samples();
+  /// Finds which samples are free of other bodies.
   void pose_samples();
   bool pose_hits(Pace& pace);
   void pose_mirrored();
   bool pose_links(Pace& pace);
   bool pose_part_links(Pace& pace);
   void pose_rows();
+  /// Takes over a pose that is kept: all but its rows; false: it is not.
+  bool recall_pose();
+  void keep_pose();
   void blend_poses();
   /// Makes the work's links the moving part of the rows.
   void set_moving();

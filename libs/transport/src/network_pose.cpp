@@ -64,6 +64,13 @@ bool TransportNetwork::Data::go_on_to(float new_time, bool between, Pace& pace) 
     case parts:
       work.report = {};
       place_parts(new_time);
+      place_samples();
+      if (!between && recall_pose()) {
+        next(rows);
+        pose_rows();
+        next(parts);
+        return true;
+      }
       pose_samples();
       if (between) {
         blend_poses();
@@ -82,6 +89,7 @@ bool TransportNetwork::Data::go_on_to(float new_time, bool between, Pace& pace) 
       [[fallthrough]];
     case rows:
       pose_rows();
+      keep_pose();
       next(parts);
   }
   return true;
@@ -111,13 +119,21 @@ void TransportNetwork::Data::place_parts(float new_time) {
   placed.swap(new_placed);
 }
 
+void TransportNetwork::Data::place_samples() {
+  const std::size_t m = sample_count();
+  parallel_for(surfels.count() - static_count, 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = static_count + begin; s < static_count + end; ++s) {
+      for (std::size_t i = s * m; i < (s + 1) * m; ++i)
+        samples[i] = to_world(surfels.surfels()[s].part, local_samples[i]);
+    }
+  });
+}
+
 void TransportNetwork::Data::pose_samples() {
   const std::size_t m = sample_count();
-  // Samples on parts move along; which of them are free of other bodies depends on the pose.
   parallel_for(surfels.count() - static_count, 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = static_count + begin; s < static_count + end; ++s) {
       const Surfel& surfel = surfels.surfels()[s];
-      for (std::size_t i = s * m; i < (s + 1) * m; ++i) samples[i] = to_world(surfel.part, local_samples[i]);
       for (std::size_t i = s * m; i < (s + 1) * m; ++i)
         sample_used[i] = sample_exists[i] && !covered(surfel.part, samples[i]) &&
                          (i == s * m || !blocked(surfels.segment(samples[s * m], samples[i], surfel.level)));

@@ -19,6 +19,7 @@
 #include <ssphh/transport/relight_session.h>
 #include <ssphh/transport/surface_gather.h>
 
+#include "network_data.h"
 #include "pace.h"
 #include "pane_light.h"
 #include "probe_light.h"
@@ -103,6 +104,7 @@ struct RelightSession::Data {
         given(state),
         shown(state) {
     check_places(places);
+    check_records(params.records);
     check_source(source, state.lights.size());
     if (params.op == probes::LightOperator::path)
       throw Error("relighting", "path tracing is no transport between probes",
@@ -113,7 +115,11 @@ struct RelightSession::Data {
                     "pose exactly, or use surfel");
       bounce = std::make_unique<BounceOperator>(network, source, params.degree, params.bounce);
     }
-    if (params.poses != 0) network.prepare_poses(params.poses, control);
+    if (params.poses != 0) {
+      network.prepare_poses(params.poses, control);
+    } else {
+      network.data_->kept.allow(params.kept_pose_bytes);
+    }
     emitters.resize(places.size());
     for (std::size_t i = 0; i < places.size(); ++i) emitters[i] = {places[i].position, places[i].radius, {}};
     keep_records(control);
@@ -190,6 +196,7 @@ struct RelightSession::Data {
   bool go_on(RelightReport& report, const Control& control, Pace& pace);
   bool step(RelightReport& report, const Control& control, Pace& pace);
   bool pose(RelightReport& report, Pace& pace);
+  bool pose_gather(Pace& pace);
   bool find_direct(Pace& pace, const Control& control);
   void find_emission();
   /// Notes whose light panes mirror anew, before the marks of `group_dirty` go.
@@ -210,6 +217,8 @@ struct RelightSession::Data {
   }
 
   // Records, in relight_records.cpp.
+  /// Throws Error for what cannot be kept, so that what is kept stays.
+  void check_records(const GatherParams& asked) const;
   void keep_records(const Control& control);
   /// Poses in which light asks for records; the present one is the first.
   std::vector<float> record_times() const;
@@ -253,6 +262,10 @@ struct RelightSession::Data {
     return result;
   }
 
+  void check_group(int index) const {
+    require(index >= 0 && static_cast<std::size_t>(index) < group_dirty.size(), "light group",
+            "there is none of that index");
+  }
   void check_probe(int probe) const {
     if (probe < 0 || static_cast<std::size_t>(probe) >= places.size())
       throw Error(fmt::format("probe {}", probe), fmt::format("there are {} probes", places.size()));

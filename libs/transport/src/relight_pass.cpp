@@ -2,7 +2,6 @@
 
 #include <ssphh/core/stopwatch.h>
 
-#include "network_data.h"
 #include "relight_data.h"
 
 namespace ssphh::transport {
@@ -99,9 +98,7 @@ bool RelightSession::Data::pose(RelightReport& report, Pace& pace) {
     stage = Stage::pose_records;
     return true;
   }
-  if (gather && !pace.go_on(done, gather->moving_rays(), least_pose_rays,
-                            [&](std::size_t begin, std::size_t end) { gather->update_pose(begin, end); }))
-    return false;
+  if (gather && !pose_gather(pace)) return false;
   for (std::size_t p = 1; p < parts; ++p) {
     if (network.poses()[p] == old_poses[p]) continue;
     moved.push_back(old_bounds[p]);
@@ -111,6 +108,22 @@ bool RelightSession::Data::pose(RelightReport& report, Pace& pace) {
     }
   }
   stage = Stage::lamps;
+  return true;
+}
+
+bool RelightSession::Data::pose_gather(Pace& pace) {
+  KeptPoses& kept = network.data_->kept;
+  if (kept.has_current() && kept.has_records()) {
+    gather->set_patches(kept.current().records);
+    return true;
+  }
+  if (!pace.go_on(done, gather->moving_rays(), least_pose_rays,
+                  [&](std::size_t begin, std::size_t end) { gather->update_pose(begin, end); }))
+    return false;
+  if (kept.has_current()) {
+    gather->get_patches(kept.current().records);
+    kept.note_records();
+  }
   return true;
 }
 

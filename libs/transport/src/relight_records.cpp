@@ -65,17 +65,21 @@ PosedIrradiance RelightSession::Data::light_alike() const {
   return light_now;
 }
 
+void RelightSession::Data::check_records(const GatherParams& asked) const {
+  if (asked.points < 0 || static_cast<std::size_t>(asked.points) > most_records)
+    throw Error("surface records",
+                fmt::format("{} points, at most {} can be kept", asked.points, most_records));
+  if (asked.points > 0 && (asked.rays < 4 || asked.rays > 1 << 16))
+    throw Error("gather rays", fmt::format("{} is outside 4..65536", asked.rays));
+  for (const int baked : asked.baked) check_group(baked);
+}
+
 void RelightSession::Data::keep_records(const Control& control) {
   gather.reset();
   light.records.clear();
   record_direct = RecordDirect(params.records.baked);
   direct_held.clear();
   if (params.records.points == 0) return;
-  if (params.records.points < 0)
-    throw Error("surface records", fmt::format("{} is no number of points", params.records.points));
-  for (const int baked : params.records.baked)
-    require(baked >= 0 && static_cast<std::size_t>(baked) < state.group_scales.size(), "light group",
-            "there is none of that index");
   find_direct_for_records();
   const std::vector<vec3> scales = alike(direct_by_group());
   const auto extend = [&](std::span<const rays::SurfacePoint> points) {
@@ -108,6 +112,7 @@ void RelightSession::Data::keep_records(const Control& control) {
     unfinished = true;
     throw;
   }
+  network.data_->kept.set_records(gather->moving_rays());
   extend(gather->points());
   light_by_panes(control);
   direct_state = state;
@@ -127,6 +132,7 @@ void RelightSession::Data::keep_records_at(std::vector<rays::SurfacePoint> point
   find_direct_for_records();
   gather = std::make_unique<SurfaceGather>(network, std::move(points), params.records.rays, direct_by_group(),
                                            control);
+  network.data_->kept.set_records(gather->moving_rays());
   record_direct.extend(*direct_light, gather->points(), params.records.rays, control);
   light_by_panes(control);
   direct_state = state;

@@ -111,6 +111,7 @@ std::vector<std::vector<sh::RadianceSh>> RelightSession::emitted_by_group() cons
 
 void RelightSession::keep_records(const GatherParams& params, const Control& control) {
   Data& d = data_->settled();
+  d.check_records(params);
   d.params.records = params;
   d.keep_records(control);
   d.light_records();
@@ -119,6 +120,12 @@ void RelightSession::keep_records(const GatherParams& params, const Control& con
 void RelightSession::keep_records_at(std::vector<rays::SurfacePoint> points, const GatherParams& params,
                                      const Control& control) {
   Data& d = data_->settled();
+  GatherParams checked = params;
+  checked.points = static_cast<int>(std::min(points.size(), most_records + 1));
+  d.check_records(checked);
+  for (const rays::SurfacePoint& point : points)
+    require(is_finite(point.position) && is_finite(point.normal), "surface records",
+            "a point is not a finite number");
   d.params.records = params;
   d.keep_records_at(std::move(points), control);
   d.light_records();
@@ -179,6 +186,7 @@ KeptDirect RelightSession::kept_direct(std::size_t i) const {
 sh::RadianceSh RelightSession::arriving(int group, int probe) const {
   const Data& d = data_->settled();
   d.check_probe(probe);
+  d.check_group(group);
   require(d.direct_light != nullptr, "relighting", "all is dark before the first update");
   return project_arriving(d.direct_light->arriving(group, d.places[probe].position, arriving_samples),
                           d.params.degree);

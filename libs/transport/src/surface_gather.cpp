@@ -160,9 +160,17 @@ void SurfaceGather::update_pose(std::size_t begin, std::size_t end) {
   parallel_for(end - begin, 256, [&](std::size_t i) {
     Moving& m = moving_[begin + i];
     const Resolved found = d.resolve({.ray = m.ray, .normal = m.normal, .patch = m.patch, .from = m.from});
-    m.link.weight = found.patch == no_patch ? 0 : m.weight;
-    m.link.patch = static_cast<std::uint32_t>(std::max(found.patch, 0));
+    m.set_patch(found.patch);
   });
+}
+
+void SurfaceGather::get_patches(std::span<std::int32_t> out) const {
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = moving_[i].link.weight > 0 ? static_cast<std::int32_t>(moving_[i].link.patch) : no_patch;
+}
+
+void SurfaceGather::set_patches(std::span<const std::int32_t> patches) {
+  for (std::size_t i = 0; i < patches.size(); ++i) moving_[i].set_patch(patches[i]);
 }
 
 void SurfaceGather::light(std::span<const Irradiance4> irradiance,

@@ -16,6 +16,7 @@ namespace {
 TEST(Defaults, OfTransport) {
   const RelightParams relight;
   EXPECT_EQ(relight.poses, 0);
+  EXPECT_EQ(relight.kept_pose_bytes, std::size_t{64} << 20);
   EXPECT_EQ(relight.degree, 4);
   EXPECT_EQ(relight.changed, 1e-3f);
   EXPECT_TRUE(relight.warm_start);

@@ -1,6 +1,7 @@
 #pragma once
 /// The few loops that wide registers speed up, compiled twice: for every machine, and for AVX2. Memory that
-/// both see is of floats: vectors of 32 bytes are aligned otherwise where there is no AVX.
+/// both see is of floats, or says alignas(32): vectors of 32 bytes are aligned otherwise where there is no
+/// AVX.
 
 namespace ssphh {
 

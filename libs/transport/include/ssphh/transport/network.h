@@ -75,7 +75,7 @@ class TransportNetwork {
   PoseReport set_time_between(float time);
   /// By owner; empty after set_time.
   const std::vector<MixedHit>& mixed_hits() const;
-  /// Bytes that prepare_poses keeps.
+  /// Bytes of the poses that prepare_poses found, or a session keeps.
   std::size_t pose_bytes() const;
 
   /// The parameters as resolved: surfel_size is never 0.

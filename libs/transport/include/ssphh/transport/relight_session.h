@@ -41,7 +41,10 @@ class TransportNetwork;
 struct RelightParams {
   TransportParams transport;
   SolveParams solve;
-  int poses = 0;           ///< 0: parts are posed exactly; K ≥ 2: blended between K poses of the animation
+  int poses = 0;  ///< 0: parts are posed exactly; K ≥ 2: blended between K poses of the animation
+  /// What exact poses may keep of what their rays met, so that those of an animation that repeats cast none
+  /// again: the same bits without. Taken when a part first moves; 0: nothing.
+  std::size_t kept_pose_bytes = std::size_t{64} << 20;
   int degree = 4;          ///< of the probes' functions
   float changed = 1e-3f;   ///< a probe changed when a coefficient did by more than this share of its mean
   bool warm_start = true;  ///< false: every update starts from darkness, so its bits tell nothing of the past
@@ -145,9 +148,10 @@ class RelightSession {
   sh::RadianceSh emission_profile(const vec3& center, float radius, int degree, int rays = 256) const;
 
   /// Keeps records of light as asked for, from now on and of the last update(); 0 points: none. Throws Error
-  /// as SurfaceGather does, and Cancelled.
+  /// as SurfaceGather does, for a light group that there is not, and Cancelled; for what it refuses at once,
+  /// records stay as they were.
   void keep_records(const GatherParams& params, const Control& control = {});
-  /// Keeps records at these points, as they stand in the pose of now.
+  /// Keeps records at these points, as they stand in the pose of now; likewise.
   void keep_records_at(std::vector<rays::SurfacePoint> points, const GatherParams& params,
                        const Control& control = {});
   /// Where the light of surfaces that stand still is kept; null: nowhere.
@@ -158,7 +162,8 @@ class RelightSession {
   /// are: updates do not find it anew.
   std::size_t kept_direct_count() const;
   KeptDirect kept_direct(std::size_t i) const;
-  /// What a group's emitters send straight to probe i, sampled. Throws Error before the first update().
+  /// What a group's emitters send straight to probe i, sampled. Throws Error before the first update(), and
+  /// for an index out of range.
   sh::RadianceSh arriving(int group, int probe) const;
   /// Names, in the order of the state's factors.
   const std::vector<std::string>& light_groups() const;

@@ -53,6 +53,12 @@ class SurfaceGather {
   std::size_t bytes() const;
 
  private:
+  friend class RelightSession;
+  /// The patch that each moving ray meets in the last pose, no_patch where it escapes.
+  void get_patches(std::span<std::int32_t> out) const;
+  /// As update_pose(), of a pose in which they were got.
+  void set_patches(std::span<const std::int32_t> patches);
+
   /// Rays of one point that meet one patch: their share, and the sum of their slopes against the normal
   /// along both tangents.
   struct Link {
@@ -68,6 +74,11 @@ class SurfaceGather {
     std::optional<vec3> from;  ///< of what a pane mirrors: the way to ray.origin starts here
     Link link;                 ///< as posed; of no weight where the ray escapes
     float weight;              ///< where it does not
+
+    void set_patch(std::int32_t met) {
+      link.weight = met == no_patch ? 0 : weight;
+      link.patch = met == no_patch ? 0 : static_cast<std::uint32_t>(met);
+    }
   };
   struct Row {
     std::vector<Link> links;
