@@ -135,8 +135,9 @@ void App::screenshot(const std::string& file, bool with_panels) {
     pixels = picture.truth_pixels();
   } else {
     pixels = settings.false_color ? picture.false_color_pixels() : picture.pixels();
-    if (settings.show == Show::wipe && picture.has_truth()) {
-      const image::Rgba8& truth = picture.truth_pixels();
+    const image::Rgba8& truth = picture.truth_pixels();
+    const bool same_size = truth.width == pixels.width && truth.height == pixels.height;
+    if (settings.show == Show::wipe && picture.has_truth() && same_size) {
       const auto from = static_cast<int>(settings.wipe * static_cast<float>(pixels.width));
       for (int y = 0; y < pixels.height; ++y) {
         const auto row = 4 * static_cast<std::ptrdiff_t>(y) * pixels.width;
@@ -145,6 +146,8 @@ void App::screenshot(const std::string& file, bool with_panels) {
       }
     }
   }
+  if (pixels.rgba.empty())
+    throw Error(file, "there is no picture yet", "try again when one stands in the window");
   write_file(file, image::encode_png(pixels));
   written("wrote", file);
 }

@@ -64,14 +64,17 @@ const realtime::FrameStats& Picture::draw(realtime::Renderer& renderer, const sc
 }
 
 image::Rgba8 Picture::pixels() const {
-  std::vector<float> values(4 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-  shown().read(values, 4);
-  image::Rgba8 out{width_, height_, std::vector<std::uint8_t>(values.size())};
-  const auto row = 4 * static_cast<std::size_t>(width_);
-  for (int y = 0; y < height_; ++y) {
+  const gl::Texture& texture = shown();
+  image::Rgba8 out{texture.width(), texture.height(), {}};
+  const auto row = 4 * static_cast<std::size_t>(out.width), rows = static_cast<std::size_t>(out.height);
+  if (row == 0) return out;
+  std::vector<float> values(row * rows);
+  texture.read(values, 4);
+  out.rgba.resize(values.size());
+  for (std::size_t y = 0; y < rows; ++y) {
     // OpenGL's row 0 is the lowest one.
-    const float* from = values.data() + static_cast<std::size_t>(height_ - 1 - y) * row;
-    std::uint8_t* to = out.rgba.data() + static_cast<std::size_t>(y) * row;
+    const float* from = values.data() + (rows - 1 - y) * row;
+    std::uint8_t* to = out.rgba.data() + y * row;
     for (std::size_t i = 0; i < row; ++i)
       to[i] = i % 4 == 3 ? 255 : static_cast<std::uint8_t>(std::lround(from[i] * 255));
   }

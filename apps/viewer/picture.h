@@ -51,7 +51,8 @@ class Picture {
   /// Of the last draw() with `linear`; empty before.
   const image::Image& linear() const { return linear_; }
   void forget_linear() { linear_ = {}; }
-  /// What is shown, balls included. Row 0 on top.
+  /// What is shown, balls included, in its own size, which resize() changes when the next picture is whole;
+  /// empty before the first. Row 0 on top.
   image::Rgba8 pixels() const;
 
   /// What shows the real-time picture's luminance.

@@ -117,6 +117,19 @@ class PictureTest : public GlStage {
     play("undo\nundo\nundo\nset exposure 0");
   }
 
+  /// Until a picture of another size is whole, the last one is what is seen and written.
+  void another_size() {
+    const std::vector<std::uint8_t> before = shot();
+    app().picture.resize(16, 12);
+    EXPECT_EQ(app().picture.width(), 16);
+    app().screenshot("before.png", false);
+    EXPECT_EQ(file("before.png").rgba, before);
+    EXPECT_EQ(file("before.png").width, 64);
+    Picture none;
+    none.resize(16, 12);
+    EXPECT_TRUE(none.pixels().rgba.empty());
+  }
+
   /// Edits reach the picture, and taken back leave it as it was.
   void edits_and_undo() {
     play("view -1 1.5 1.9 -2.4 1 0");
@@ -360,6 +373,7 @@ TEST_F(PictureTest, FollowsTheSession) {
   part("balls", [&] { balls_and_names(); });
   part("gen", [&] { generated(); });
   part("waits", [&] { waits_for_the_user(); });
+  part("size", [&] { another_size(); });
   if (HasFatalFailure()) return;
   app().open("builtin:cornell");
   EXPECT_TRUE(app().light.empty());
