@@ -121,7 +121,6 @@ TEST_F(Messages, OfPictures) {
   with({"--backend", "gl", "--method", "vpl", "--resume"});
   with({"--backend", "gl", "--method", "vpl", "--probes", probes});
   with({"--backend", "gl", "--method", "ssphh", "--param", "x=1"});
-  with({"--backend", "gl", "--method", "ssphh"});
   with({"--backend", "gl", "--method", "direct", "--aov", "groups"});
   const std::vector<std::string> bench = {"bench-frame", "builtin:box"};
   add(test::joined(bench, {"--ratio"}));

@@ -151,8 +151,9 @@ TEST(Atlas, ChartsOfASmoothSurfaceAgreeAcrossTheirSeams) {
   ASSERT_GT(count, 500);
   RecordProperty("worst", fmt::format("{:.3f} texels", worst * u.layout.density));
   RecordProperty("mean", fmt::format("{:.3f} texels", sum / static_cast<float>(count) * u.layout.density));
-  // The field's slope is 1 a metre: in texels' worth of it.
-  EXPECT_LT(worst, 0.5f / u.layout.density);
+  // The field's slope is 1 a metre: in texels' worth of it. A texel holds what stands half a diagonal from it
+  // at most.
+  EXPECT_LT(worst, 0.71f / u.layout.density);
   EXPECT_LT(sum / static_cast<float>(count), 0.05f / u.layout.density);
 }
 

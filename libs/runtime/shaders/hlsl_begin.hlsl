@@ -19,6 +19,7 @@ ByteAddressBuffer ssphh_file : register(SSPHH_REGISTER);
 #define vec4 float4
 #define ivec2 int2
 #define ivec3 int3
+#define ivec4 int4
 #define uvec4 uint4
 #define uintBitsToFloat asfloat
 #define floatBitsToUint asuint
