@@ -67,7 +67,8 @@ TEST(DamagedFile, SaysWhatIsWrong) {
     return open_result(file);
   };
   EXPECT_EQ(with(0, std::byte{'X'}), SSPHH_RUNTIME_NOT_COOKED);
-  EXPECT_EQ(with(offsetof(ssphh_cooked_header, version), std::byte{SSPHH_COOKED_VERSION + 1}), SSPHH_RUNTIME_BAD_VERSION);
+  EXPECT_EQ(with(offsetof(ssphh_cooked_header, version), std::byte{SSPHH_COOKED_VERSION + 1}),
+            SSPHH_RUNTIME_BAD_VERSION);
   EXPECT_EQ(with(offsetof(ssphh_cooked_header, file_size), std::byte{1}), SSPHH_RUNTIME_CUT_OFF);
   EXPECT_EQ(with(offsetof(ssphh_cooked_header, degree), std::byte{9}), SSPHH_RUNTIME_DAMAGED);
   EXPECT_EQ(with(good.size() - 1, std::byte{9}), SSPHH_RUNTIME_DAMAGED);
