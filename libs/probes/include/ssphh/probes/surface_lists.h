@@ -33,8 +33,8 @@ struct SurfaceGrid {
 };
 
 /// Grids of cells over the surfaces. A cell that holds surface lists the points that may light it, as
-/// SurfaceInterpolation finds them, and for each which of 8 × 8 squares of the cell see it: squares of
-/// the plane across the axis that the point's normal is nearest to.
+/// SurfaceInterpolation finds them, and for each which of 64 parts of the cell see it: columns along an axis
+/// or cubes, as its entry says.
 struct SurfaceLists {
   static constexpr int longest =
       96;  ///< points of a list; the nearest to the cell's middle, in their spacings
