@@ -47,24 +47,12 @@ bool KeptPoses::take(Sizes sizes) {
     sizes_ = sizes;
     used_ = 0;
     room_ = allowed_ / std::max<std::size_t>(sizes.bytes(), 1);
-    parts_.reserve(room_ * sizes.parts);
-    sample_used_.reserve(room_ * sizes.samples);
-    hits_.reserve(room_ * sizes.hits);
-    mirrored_.reserve(room_ * sizes.mirrored);
-    links_.reserve(room_ * sizes.links);
-    record_patches_.reserve(room_ * sizes.records);
-    has_records_.reserve(room_);
+    for_each([&](auto& all, std::size_t of_one) { all.reserve(room_ * of_one); });
   }
   if (room_ == 0) return false;
   if (used_ < room_) {
     current_ = used_++;
-    parts_.resize(used_ * sizes.parts);
-    sample_used_.resize(used_ * sizes.samples);
-    hits_.resize(used_ * sizes.hits);
-    mirrored_.resize(used_ * sizes.mirrored);
-    links_.resize(used_ * sizes.links);
-    record_patches_.resize(used_ * sizes.records);
-    has_records_.resize(used_);
+    for_each([&](auto& all, std::size_t of_one) { all.resize(used_ * of_one); });
   } else {
     // One in eight takes the place of any other: of an animation longer than there is room for, most stay and
     // are met again, and one that is over goes in time.

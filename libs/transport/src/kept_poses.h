@@ -63,6 +63,18 @@ class KeptPoses {
  private:
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
+  /// Calls visit(array of all poses, elements of one pose).
+  template <class Visit>
+  void for_each(const Visit& visit) {
+    visit(parts_, sizes_.parts);
+    visit(sample_used_, sizes_.samples);
+    visit(hits_, sizes_.hits);
+    visit(mirrored_, sizes_.mirrored);
+    visit(links_, sizes_.links);
+    visit(record_patches_, sizes_.records);
+    visit(has_records_, std::size_t{1});
+  }
+
   std::size_t allowed_ = 0, records_ = 0;
   Sizes sizes_;
   std::size_t room_ = 0, used_ = 0, passed_over_ = 0, current_ = none;
