@@ -197,7 +197,7 @@ TEST(Glass, RoughGlassIsReciprocalUpToTheSquareOfTheIndex) {
       for (int k = 0; k < 3; ++k) {
         const float a = there[k] / (n_o * n_o), b = back[k] / (n_i * n_i);
         // 2e-3: where o + η i nearly vanishes its direction is that of rounding errors.
-        EXPECT_NEAR(a, b, 2e-3f * std::max(a, b) + 1e-7f) << model.name;
+        EXPECT_NEAR(a, b, 2e-3f * std::max(a, b) + 1e-9f) << model.name;
         compared += a > 1e-4f;
       }
     }

@@ -120,7 +120,11 @@ BsdfValue GlassFrom::eval_transmitted(const vec3& wi) const {
   h *= (h.z < 0 ? -1 : 1) / glm::length(h);
   const float cos_o = glm::dot(wo_, h), cos_i = glm::dot(wi, h);
   if (!(cos_o > 0 && cos_i < 0)) return {};
-  const GlassShares shares = glass_shares(glass_, cos_o);
+  // A boundary reflects alike from either side; from inside, near total reflection, the refracted cosine is
+  // lost to rounding.
+  GlassParams outside = glass_;
+  outside.inside = false;
+  const GlassShares shares = glass_shares(outside, glass_.inside ? -cos_i : cos_o);
   const float root = cos_o + eta_ * cos_i;
   const float density = ggx_distribution(alpha_, h) * ggx_masking(alpha_, wo_.z) * cos_o / wo_.z;  // of h
   const float per_direction = -cos_i / (root * root);  // dω_h/dω_i over η²
