@@ -11,6 +11,7 @@
 
 #include "glass_passage.h"
 #include "posed_geometry.h"
+#include "surface_gap.h"
 
 namespace ssphh::trace {
 
@@ -244,7 +245,7 @@ void trace_path(const PosedGeometry& scene, const Emitters& emitters, Ray ray, c
           const bool alone = toward->delta || options.strategy == Strategy::nee_only;
           const float weight = alone ? 1 : shading::power_heuristic(toward->pdf, f.pdf);
           const vec3& start = side > 0 ? ray_origin : beyond_surface;
-          const Ray shadow{start, toward->wi, shadow_distance(start, toward->distance)};
+          const Ray shadow = shadow_ray(start, vertex.position, *toward);
           const vec3 through = scene.transmittance(
               shadow, sampler.passage(scene, vertices, true, options.looks_up && !looks_up, options.paths),
               task);

@@ -91,6 +91,34 @@ TEST(FarShadow, AGlowingSquareIsNotInItsOwnShadow) {
   }
 }
 
+// The floor's rounding errors are those of its far corners: by so much rays start above it, here by more than
+// a ten-thousandth of the lamp's height.
+TEST(FarShadow, ALampLowOverAWidePlainLightsIt) {
+  constexpr float half = 500, height = 1.2f, side = 0.2f, away = 2;
+  const vec3 emission(3, 1, 2);
+  scene::Scene scene;
+  add_object(scene, scene::make_quad(vec3(-half, 0, half), vec3(2 * half, 0, 0), vec3(0, 0, -2 * half)),
+             lambertian(FarFloor::albedo));
+  add_object(scene, scene::make_quad(vec3(-side / 2, height, -side / 2), vec3(side, 0, 0), vec3(0, 0, side)),
+             lambertian(vec3(0), emission));
+  const trace::TracerData data(std::make_shared<const trace::SceneGeometry>(scene), scene, 0);
+  trace::RayTask task;
+  FarFloor::Light light;
+  constexpr std::uint32_t count = 4096;
+  for (std::uint32_t s = 0; s < count; ++s) {
+    trace_path(data.geometry, data.emitters(), {vec3(away, 1, 0), vec3(0, -1, 0)}, {0, s},
+               {1, true, trace::Strategy::nee_only}, task, light);
+  }
+  EXPECT_EQ(light.count, count);
+  const double r2 = double{height} * height + double{away} * away;
+  const double factor =
+      double{side} * side * height * height / (r2 * r2) / pi_d;  // small lamp: cos² A / π r²
+  for (int c = 0; c < 3; ++c) {
+    const double expected = double{emission[c] * FarFloor::albedo[c]} * factor;
+    EXPECT_NEAR(static_cast<double>(light.sum[c]) / count, expected, 0.01 * expected) << c;
+  }
+}
+
 TEST(FarShadow, ABulbJustBelowACeilingLightsTheFloor) {
   for (const float away : distances) {
     FarFloor far(away);
