@@ -138,7 +138,7 @@ std::vector<BrightPoint> bright_points(const TransportNetwork::Data& d, std::spa
       if (glm::dot(there.position - here.position, here.normal) <= 0 ||
           glm::dot(here.position - there.position, there.normal) <= 0)
         continue;
-      seen = !d.blocked(d.surfels.segment(here, there, 0));
+      seen = !d.blocked(SurfelSet::segment(here, d.surfels.lift(), there, surfels[s].height));
     }
     if (!seen) continue;
     ++taken;

@@ -37,9 +37,6 @@ struct PlacedPart {
   mat4 to_world{1}, to_part{1};
 };
 
-/// Links start so far above their surfel, in surfel sizes.
-inline constexpr float link_lift = 2e-3f;
-
 /// The part of the operators that moves, at one time.
 struct PreparedPose {
   float time = 0;

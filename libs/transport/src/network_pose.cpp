@@ -136,7 +136,8 @@ void TransportNetwork::Data::pose_samples() {
       const Surfel& surfel = surfels.surfels()[s];
       for (std::size_t i = s * m; i < (s + 1) * m; ++i)
         sample_used[i] = sample_exists[i] && !covered(surfel.part, samples[i]) &&
-                         (i == s * m || !blocked(surfels.segment(samples[s * m], samples[i], surfel.level)));
+                         (i == s * m || !blocked(SurfelSet::segment(samples[s * m], surfel.height, samples[i],
+                                                                    surfel.height)));
     }
   });
   parallel_for(hidden_samples.size(), 256, [&](std::size_t k) {

@@ -58,7 +58,7 @@ rays::SurfacePoint TransportNetwork::Data::to_world(int part, const rays::Surfac
 rays::RayQuery TransportNetwork::Data::sample_segment(std::size_t sample) const {
   const std::size_t s = sample / sample_count();
   const Surfel& surfel = surfels.surfels()[s];
-  return surfels.segment(surfel.point, local_samples[sample], surfel.level);
+  return SurfelSet::segment(surfel.point, surfel.height, local_samples[sample], surfel.height);
 }
 
 bool TransportNetwork::Data::parts_block(const rays::RayQuery& segment) const {
@@ -103,16 +103,18 @@ int TransportNetwork::Data::find(int part, const rays::SurfacePoint& point) cons
     if (inside) return no_patch;
   }
   const rays::SurfacePoint world = to_world(part, point);
+  const float height = surfels.height(part, point);
   return find_nearest(part, point, [&](int s) {
     const Surfel& surfel = surfels.surfels()[s];
-    return !blocked(surfels.segment(world, to_world(part, surfel.point), surfel.level));
+    return !blocked(SurfelSet::segment(world, height, to_world(part, surfel.point), surfel.height));
   });
 }
 
 int TransportNetwork::Data::find_static(const rays::SurfacePoint& point) const {
+  const float height = surfels.height(0, point);
   return find_nearest(0, point, [&](int s) {
     const Surfel& surfel = surfels.surfels()[s];
-    const rays::RayQuery way = surfels.segment(point, surfel.point, surfel.level);
+    const rays::RayQuery way = SurfelSet::segment(point, height, surfel.point, surfel.height);
     std::uint8_t hit = 0;
     source.occluded(0, {&way, 1}, {&hit, 1});
     return !hit;
@@ -126,7 +128,7 @@ bool TransportNetwork::Data::near_parts(const MovingRay& way) const {
   if (way.patch == no_patch) return false;
   const rays::SurfacePoint point{way.ray.origin + way.ray.t_max * way.ray.direction, way.normal};
   const Surfel& met = surfel_of(way.patch);
-  return meets_any(surfels.segment(point, met.point, met.level), swept);
+  return meets_any(SurfelSet::segment(point, met.height, met.point, met.height), swept);
 }
 
 template <class Sees>
@@ -189,7 +191,7 @@ Resolved TransportNetwork::Data::resolve(const MovingRay& unobstructed) const {
     return {no_patch, unobstructed.albedo, unobstructed.emission, ray.t_max};
   const rays::SurfacePoint point{ray.origin + ray.t_max * ray.direction, unobstructed.normal};
   const Surfel& surfel = surfel_of(unobstructed.patch);
-  const bool hidden = parts_block(surfels.segment(point, surfel.point, surfel.level));
+  const bool hidden = parts_block(SurfelSet::segment(point, surfel.height, surfel.point, surfel.height));
   return {hidden ? find(0, point) : unobstructed.patch, unobstructed.albedo, unobstructed.emission,
           ray.t_max};
 }

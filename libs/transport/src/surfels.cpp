@@ -87,8 +87,17 @@ const std::vector<int>* SurfelSet::find_cell(const Key& key) const {
   return found == cells_.end() ? nullptr : &found->second;
 }
 
-rays::RayQuery SurfelSet::segment(const rays::SurfacePoint& a, const rays::SurfacePoint& b, int level) const {
-  const vec3 from = a.position + lift(level) * a.normal, to = b.position + lift(level) * b.normal;
+float SurfelSet::height(int part, const rays::SurfacePoint& point) const {
+  const float most = lift(level(part, point.position)), begin = link_lift * size();
+  const rays::RayQuery up{point.position + begin * point.normal, point.normal, 2 * most};
+  rays::RayHit hit;
+  source_->intersect(part, {&up, 1}, {&hit, 1});
+  return std::min(most, 0.5f * (begin + hit.distance));
+}
+
+rays::RayQuery SurfelSet::segment(const rays::SurfacePoint& a, float height_a, const rays::SurfacePoint& b,
+                                  float height_b) {
+  const vec3 from = a.position + height_a * a.normal, to = b.position + height_b * b.normal;
   return {from, to - from, 1};
 }
 
@@ -140,7 +149,11 @@ std::span<const int> SurfelSet::candidates(int part, const rays::SurfacePoint& p
 std::vector<int> SurfelSet::add(int part, std::span<const ClusterPoint> points) {
   // Bring the points of each cell together, in their order.
   std::vector<std::pair<Key, std::size_t>> order(points.size());
-  parallel_for(points.size(), 1024, [&](std::size_t i) { order[i] = {key(part, points[i].point), i}; });
+  std::vector<float> heights(points.size());
+  parallel_for(points.size(), 1024, [&](std::size_t i) {
+    order[i] = {key(part, points[i].point), i};
+    heights[i] = height(part, points[i].point);
+  });
   std::ranges::sort(order);
   std::vector<std::size_t> runs;
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -158,16 +171,17 @@ std::vector<int> SurfelSet::add(int part, std::span<const ClusterPoint> points) 
     for (std::size_t c = begin; c < end; ++c) {
       const std::size_t first = runs[c], size = runs[c + 1] - first;
       CellResult& result = results[c];
-      const int level = level_of(order[first].first);
       result.owner.assign(size, no_surfel);
       const auto point = [&](std::size_t local) -> const rays::SurfacePoint& {
         return points[order[first + local].second].point;
       };
+      const auto height_of = [&](std::size_t local) { return heights[order[first + local].second]; };
       left.clear();
       for (std::size_t i = 0; i < size; ++i) left.push_back(i);
-      const auto claim = [&](const rays::SurfacePoint& representative, int owner) {
+      const auto claim = [&](const rays::SurfacePoint& representative, float above, int owner) {
         segments.clear();
-        for (const std::size_t i : left) segments.push_back(segment(representative, point(i), level));
+        for (const std::size_t i : left)
+          segments.push_back(segment(representative, above, point(i), height_of(i)));
         blocked.resize(segments.size());
         source_->occluded(part, segments, blocked);
         still_left.clear();
@@ -184,7 +198,7 @@ std::vector<int> SurfelSet::add(int part, std::span<const ClusterPoint> points) 
       if (known != cells_.end()) {
         for (const int s : known->second) {
           if (left.empty()) break;
-          claim(surfels_[s].point, owner++);
+          claim(surfels_[s].point, surfels_[s].height, owner++);
         }
         owner = static_cast<int>(known->second.size());
       }
@@ -193,7 +207,7 @@ std::vector<int> SurfelSet::add(int part, std::span<const ClusterPoint> points) 
         result.founders.push_back(order[first + founder].second);
         result.owner[founder] = owner;
         left.erase(left.begin());
-        claim(point(founder), owner++);
+        claim(point(founder), height_of(founder), owner++);
       }
     }
   });
@@ -206,7 +220,7 @@ std::vector<int> SurfelSet::add(int part, std::span<const ClusterPoint> points) 
     has_level_[level_of(cell)] = true;
     for (const std::size_t founder : results[c].founders) {
       list.push_back(static_cast<int>(surfels_.size()));
-      surfels_.push_back({points[founder].point, vec3(0), part, level_of(cell)});
+      surfels_.push_back({points[founder].point, vec3(0), part, level_of(cell), heights[founder]});
       albedo_sum_.emplace_back(0);
       member_count_.push_back(0);
       members_.emplace_back();
@@ -279,7 +293,7 @@ std::vector<ClusterPoint> SurfelSet::spread_places(int index, int count) const {
     const rays::SurfacePoint place{rays[i].origin + (1 - 2e-5f) * hits[i].distance * rays[i].direction,
                                    hits[i].normal};
     if (key(surfel.part, place) != own) continue;
-    const rays::RayQuery way = segment(surfel.point, place, surfel.level);
+    const rays::RayQuery way = segment(surfel.point, surfel.height, place, height(surfel.part, place));
     std::uint8_t blocked = 0;
     source_->occluded(surfel.part, {&way, 1}, {&blocked, 1});
     if (!blocked) places.push_back({place, hits[i].albedo});

@@ -146,13 +146,41 @@ TEST(SurfelSet, EveryMemberSeesItsRepresentative) {
   const std::vector<int> surfel = set.add(0, points);
   std::set<int> left, right;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const rays::RayQuery sight = set.segment(set.surfels()[surfel[i]].point, points[i].point, 0);
+    const rays::RayQuery sight =
+        SurfelSet::segment(set.surfels()[surfel[i]].point, set.surfels()[surfel[i]].height, points[i].point,
+                           set.height(0, points[i].point));
     std::uint8_t blocked = 1;
     source.occluded(0, {&sight, 1}, {&blocked, 1});
     EXPECT_FALSE(blocked);
     (points[i].point.position.x < 2.2f ? left : right).insert(surfel[i]);
   }
   for (const int s : left) EXPECT_FALSE(right.contains(s)) << "surfel " << s << " reaches through the wall";
+}
+
+// The folds of a curtain: 3 cm between sheets, where sight within voxels of 1 m begins 8 cm above a surface.
+TEST(SurfelSet, SheetsCloserThanTheLiftOfSightShareNoSurfel) {
+  scene::Scene scene;
+  add(scene, scene::make_quad({2.2f, 0, 0}, {0, 0, 4}, {0, 4, 0}));
+  add(scene, scene::make_quad({2.23f, 0, 0}, {0, 0, 4}, {0, 4, 0}));
+  const TriangleSource source(scene);
+  SurfelSet set(source, 1);
+  Pcg32 random(4);
+  std::vector<ClusterPoint> points;
+  for (int i = 0; i < 200; ++i) {
+    const vec2 at = 4.0f * random.uniform2();
+    for (const float x : {2.2f, 2.23f}) points.push_back({{{x, at.x, at.y}, {1, 0, 0}}, vec3(0.5f)});
+  }
+  const std::vector<int> surfel = set.add(0, points);
+  const std::set<int> all(surfel.begin(), surfel.end());
+  std::set<int> within;
+  for (std::size_t i = 0; i < points.size(); i += 2) within.insert(surfel[i]);
+  for (std::size_t i = 1; i < points.size(); i += 2) EXPECT_FALSE(within.contains(surfel[i])) << surfel[i];
+  EXPECT_EQ(all.size(), 2 * within.size()) << "sheets alike are divided alike";
+  for (const int s : within) {
+    EXPECT_NEAR(set.surfels()[s].height, 0.015f, 1e-4f);
+    for (const ClusterPoint& place : set.spread_places(s, 4))
+      EXPECT_NEAR(place.point.position.x, 2.2f, 1e-3f);
+  }
 }
 
 TEST(SurfelSet, NumbersDependOnPointsAndCallsAlone) {

@@ -24,8 +24,12 @@ struct Surfel {
   rays::SurfacePoint point;  ///< its representative: a member that all others see
   vec3 albedo{0};            ///< mean of the members
   int part = 0;
-  int level = 0;  ///< of its voxel: doublings of the finest size
+  int level = 0;     ///< of its voxel: doublings of the finest size
+  float height = 0;  ///< where sight toward it ends, above the representative [m]
 };
+
+/// Where rays leave a surface: this share of the finest voxels' edge above it.
+inline constexpr float link_lift = 2e-3f;
 
 inline constexpr int no_surfel = -1;
 /// What rays meet where they meet no patch of a surfel (network.h).
@@ -73,9 +77,13 @@ class SurfelSet {
   /// Surfels of the point's own cell alone, in the order they were founded.
   std::span<const int> cell(int part, const rays::SurfacePoint& point) const;
 
-  /// Segment between two surface points, lifted off the surface as voxels of this level need.
-  rays::RayQuery segment(const rays::SurfacePoint& a, const rays::SurfacePoint& b, int level) const;
   float lift(int level = 0) const { return 0.08f * size(level); }
+  /// Where sight from a point begins, above it [m]: the lift of its part's voxels there, or half of what is
+  /// free of the part's own surfaces: in a fold no sight begins beyond the other side.
+  float height(int part, const rays::SurfacePoint& point) const;
+  /// Segment between two surface points, from so far above the one to so far above the other [m].
+  static rays::RayQuery segment(const rays::SurfacePoint& a, float height_a, const rays::SurfacePoint& b,
+                                float height_b);
 
  private:
   struct Voxel {
