@@ -59,8 +59,9 @@ bool see_along_surface(const rays::SurfacePoint& a, const rays::SurfacePoint& b,
   const vec3 low_a = a.position + least * a.normal, low_b = b.position + least * b.normal;
   // Between points of a sphere the surface rises to an eighth of what their normals part.
   const float bulge = glm::dot(b.normal - a.normal, b.position - a.position);
-  const float lift = fitted_lift_over_bulges * bulge;
-  if (!(lift > 0.1f * least)) return sees(low_a, low_b);
+  const float over_bulge = fitted_lift_over_bulges * bulge;
+  if (!(over_bulge > 0.1f * least) && sees(low_a, low_b)) return true;
+  const float lift = std::max(over_bulge, fitted_hop * spacing);
   const vec3 high_a = low_a + lift * a.normal, high_b = low_b + lift * b.normal;
   return sees(high_a, high_b) && sees(low_a, high_a) && sees(low_b, high_b);
 }

@@ -120,6 +120,17 @@ TEST(SightAlongSurface, StaysCloseOverWhatIsFlatOrHollow) {
   }
 }
 
+TEST(SightAlongSurface, PassesOverBumpsOfCoarseTrianglesAlone) {
+  const rays::SurfacePoint a{{-0.4f, 0, 0}, {0, 1, 0}}, b{{0.4f, 0, 0}, {0, 1, 0}};
+  const auto over = [](float wall) {  // at x = 0
+    return [wall](const vec3& from, const vec3& to) {
+      return from.x * to.x > 0 || 0.5f * (from.y + to.y) > wall;
+    };
+  };
+  EXPECT_TRUE(see_along_surface(a, b, 0.5f, over(0.02f)));
+  EXPECT_FALSE(see_along_surface(a, b, 0.5f, over(0.05f)));
+}
+
 TEST(SightAlongSurface, GoesThroughNothingOnItsWayUp) {
   // Two points of a ridge below a ceiling that is nearer than the way over the ridge is high
   const vec3 left = glm::normalize(vec3(-1, 1.2f, 0)), right = glm::normalize(vec3(1, 1.2f, 0));

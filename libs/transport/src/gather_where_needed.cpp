@@ -4,6 +4,7 @@
 
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/require.h>
+#include <ssphh/probes/lookup_constants.h>
 #include <ssphh/probes/surface_interpolation.h>
 #include <ssphh/transport/fitted_weights.h>
 #include <ssphh/transport/surface_gather.h>
@@ -13,6 +14,13 @@
 #include "unseen_surfaces.h"
 
 namespace ssphh::transport {
+namespace {
+
+/// Beyond this share of its reach a point has next to no weight: where it is alone, it stands for places that
+/// it knows nothing of.
+constexpr float share_of_reach = 0.75f;
+
+}  // namespace
 
 /// Where records may stand: on still surfaces, in cubes of a grid.
 class RecordPlaces {
@@ -59,8 +67,8 @@ class RecordPlaces {
     return points;
   }
 
-  /// Of all places, or of the surfels' patches, those that no known point lights, at most so many, spread
-  /// evenly.
+  /// Of all places, or of the surfels' patches, those that no known point lights but from afar, at most so
+  /// many, spread evenly.
   std::vector<rays::SurfacePoint> unlit(const probes::SurfaceInterpolation& known, bool patches,
                                         std::size_t most, const Control& control) const {
     const std::vector<rays::SurfacePoint>& asked = patches ? patches_ : all_;
@@ -69,7 +77,10 @@ class RecordPlaces {
         asked.size(), 64,
         [&](std::size_t i) {
           probes::SurfaceShares storage;
-          is[i] = known.at(asked[i], storage).empty();
+          is[i] = std::ranges::none_of(known.at(asked[i], storage), [&](const probes::SurfaceShare& share) {
+            const float near = share_of_reach * probes::fitted_reach * known.spacing(share.point);
+            return glm::distance(known.position(share.point), asked[i].position) < near;
+          });
         },
         control);
     std::vector<rays::SurfacePoint> points;

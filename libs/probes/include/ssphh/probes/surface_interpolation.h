@@ -21,8 +21,8 @@ inline constexpr std::uint32_t no_surface_point = ~std::uint32_t{0};
 
 /// Where each point counts at all.
 geometry::Balls surface_reach(std::span<const rays::SurfacePoint> points, std::span<const float> spacings);
-/// Whether two points of one surface see each other: above bulges of that surface, but not above what stands
-/// on it.
+/// Whether two points of one surface see each other: above bulges of that surface and above bumps of a
+/// twentieth of the spacing, but not above what stands on it.
 bool see_along_surface(const rays::SurfacePoint& a, const rays::SurfacePoint& b, float spacing,
                        const SeesProbe& sees);
 
@@ -53,6 +53,7 @@ class SurfaceInterpolation {
   bool irradiance(const rays::SurfacePoint& at, std::span<const RecordLight> light, vec3& out) const;
 
   float spacing(std::size_t point) const { return points_[point].spacing; }  ///< [m]
+  const vec3& position(std::size_t point) const { return points_[point].position; }
   std::size_t count() const { return points_.size(); }
   std::size_t bytes() const;
 
