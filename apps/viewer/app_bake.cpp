@@ -119,12 +119,11 @@ void App::stop_stale_bake() {
 }
 
 void App::take_farm_news() {
-  const bool was_lost = !farm->lost().empty();
+  const bool was_lost = farm->lost();
   if (!farm->poll()) return;
   if (open_tab == "Farm") redraw();
-  const bool lost = !farm->lost().empty();
-  if (lost == was_lost) return;
-  if (!lost) return say(fmt::format("{} answers again.", farm->endpoint()));
+  if (farm->lost() == was_lost) return;
+  if (was_lost) return say(fmt::format("{} answers again.", farm->endpoint()));
   const char* what = baking() && farm->used
                          ? "The bake waits for it and goes on when it answers; \"Bake here\" in the panel "
                            "Farm has it done by this machine."

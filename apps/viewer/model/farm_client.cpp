@@ -15,10 +15,10 @@ FarmClient::FarmClient(const farm::FarmOptions& options) : options_(options) {
         const farm::FarmStatus status = watch->look(control);
         watch_.hand_over([this, figures = figures_of(status), rate = status.per_second] {
           figures_ = figures, per_second_ = rate;
-          lost_.clear();
+          lost_ = false;
         });
-      } catch (const Error& e) {
-        watch_.hand_over([this, why = std::string(e.what())] { lost_ = why; });
+      } catch (const Error&) {
+        watch_.hand_over([this] { lost_ = true; });
       }
       for (int i = 0; i < 20; ++i) {
         control.check();

@@ -25,8 +25,8 @@ class FarmClient {
   /// As of the last answer; none: there was none yet.
   const std::optional<farm::FarmFigures>& figures() const { return figures_; }
   std::optional<double> jobs_per_second() const { return per_second_; }
-  /// Why the broker's last answer was none; empty: it was one.
-  const std::string& lost() const { return lost_; }
+  /// Whether the last question had no answer.
+  bool lost() const { return lost_; }
 
   bool used = true;  ///< bakes go there; else they are done here
 
@@ -34,7 +34,7 @@ class FarmClient {
   const farm::FarmOptions& options_;
   std::optional<farm::FarmFigures> figures_;
   std::optional<double> per_second_;
-  std::string lost_;
+  bool lost_ = false;
   BackgroundJob watch_;
 };
 

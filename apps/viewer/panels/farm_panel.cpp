@@ -37,7 +37,8 @@ void draw_bake(App& app) {
   heading("Bake");
   std::string text = status.name;
   if (status.fraction >= 0) text += fmt::format(": {:.0f} %", 100 * status.fraction);
-  if (status.stage_left) text += fmt::format(", about {:.0f} s left", *status.stage_left);
+  if (status.stage_left && !app.farm->lost())
+    text += fmt::format(", about {:.0f} s left", *status.stage_left);
   ImGui::TextWrapped("%s", text.c_str());
   if (wide_button("Bake here")) attempt(app, [&] { app.bake_here(); });
 }
@@ -75,17 +76,15 @@ void draw_farm_panel(App& app) {
   FarmClient& farm = *app.farm;
   heading("Broker");
   ImGui::TextWrapped("%s", farm.endpoint().c_str());
-  if (!farm.lost().empty()) note("It does not answer: " + farm.lost());
+  if (farm.lost()) note("It does not answer. Bakes that go to it wait until it does.");
   row("at the farm");
   ImGui::Checkbox("##used", &farm.used);
   tip("Bakes that begin from now on, GEN and VIZ, go to its workers; else this machine does them.");
   if (farm.used && app.baking()) draw_bake(app);
-  if (farm.figures()) {
-    draw_jobs(farm);
-    draw_workers(*farm.figures());
-  } else if (farm.lost().empty()) {
-    note("It has not answered yet.");
-  }
+  if (farm.lost()) return;
+  if (!farm.figures()) return note("It has not answered yet.");
+  draw_jobs(farm);
+  draw_workers(*farm.figures());
 }
 
 }  // namespace ssphh::viewer

@@ -115,6 +115,7 @@ TEST_F(FarmBakes, GoOnHereWhereTheBrokerIsLost) {
   EXPECT_TRUE(app().baking());
   open("Farm");
   EXPECT_TRUE(shows("It does not answer"));
+  EXPECT_FALSE(shows("queued")) << "who knows";
   click_text("Bake here");
   finish_work();
   EXPECT_EQ(app().message, "GEN is done");
