@@ -33,6 +33,7 @@ App::App(Window& window_, const ViewerOptions& options_, LoadScene load)
   }
   take_look();
   kept_look_ = look();
+  if (options.farm) farm.emplace(*options.farm);
   for (const auto& [name, value] : options.settings) set_setting(settings, name, value);
 }
 
@@ -49,6 +50,7 @@ double App::turn(const InjectedInput& input) {
     complain(e.what());
   }
   take_work();
+  if (farm) take_farm_news();
   if (reference.poll()) screen_.truth_dirty = true, redraw();
   watch_file();
   note_view();
@@ -148,6 +150,7 @@ void App::apply_edits() {
     applied_.relit_for = asked;
     applied_.light_is_stale(window.seconds());
   }
+  stop_stale_bake();
   const scene::LightingState lighting = document.lighting();
   if (renderer_->lighting() != lighting) {
     renderer_->set(lighting);
@@ -167,7 +170,7 @@ void App::apply_edits() {
   // Not while somebody drags: once things have been still for a moment.
   if (applied_.light_stale && window.seconds() - applied_.stale_since > 0.3 && !ImGui::IsAnyMouseDown()) {
     applied_.light_stale = false;
-    rebuild_light();
+    std::exchange(applied_.bakes_again, false) ? start_gen(baked_->viz_only) : rebuild_light();
   }
 }
 

@@ -14,6 +14,7 @@
 #include "model/document.h"
 #include "model/drag.h"
 #include "model/exposure_follower.h"
+#include "model/farm_client.h"
 #include "model/file_dialog.h"
 #include "model/file_watch.h"
 #include "model/frame_times.h"
@@ -49,6 +50,8 @@ class App {
 
   /// Takes over what is done in the background; of what failed the user is told.
   void take_work();
+  /// Takes over what the farm's broker told, if there is one; tells the user when it is lost, and back.
+  void take_farm_news();
 
   // What can be done
   void open(const std::string& source);
@@ -149,7 +152,12 @@ class App {
   void place_probes(float spacing);
   /// Builds the light of the probes anew, in the background.
   void rebuild_light();
+  /// GEN and VIZ of the SPHLs in the background, by the farm if there is one and it is used; probes appear
+  /// one by one, at first as a glance finds them.
   void start_gen(bool viz_only);
+  bool baking() const;
+  /// From now on this machine does bakes, also the one that runs.
+  void bake_here();
   /// Of one name, or of keys that play with the scene's animations, as probes::read_probe_keys() has them.
   void take_probe_file(const std::string& file);
   /// Makes the surface records or fitted weights of the probes ready, in the background.
@@ -208,6 +216,7 @@ class App {
   ProbeLight light;
   Reference reference;
   BackgroundJob job;
+  std::optional<FarmClient> farm;
   Preferences preferences;
   std::optional<FileDialog> dialog;
   Picture picture;
@@ -261,6 +270,7 @@ class App {
   void apply_edits();
   /// A renderer with the lamps that there are now; all that it had it is given again.
   void renew_renderer();
+  void stop_stale_bake();
   void update_light();
   void finish_frame();
   void update_title();
@@ -297,6 +307,11 @@ class App {
   std::unique_ptr<trace::TransportScene> picking_;
   Screen screen_;
   Applied applied_;
+  struct Baked {
+    bool viz_only = false;
+    Edits edits;
+  };
+  std::optional<Baked> baked_;  ///< what the last bake was started with
   ExposureFollower exposure_;
   ViewHistory views_;
   std::optional<InspectedAt> inspected_;  ///< what `inspection` holds for

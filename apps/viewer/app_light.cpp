@@ -6,34 +6,12 @@
 
 #include <ssphh/bake/light_modes.h>
 #include <ssphh/core/log.h>
-#include <ssphh/place/init.h>
 #include <ssphh/probes/keyed_files.h>
 #include <ssphh/trace/path_tracer.h>
 
 #include "app.h"
 
 namespace ssphh::viewer {
-namespace {
-
-std::vector<scene::ProbePlace> places_of(const Document& document) {
-  const scene::Scene& scene = *document.scene;
-  const std::vector<mat4> world = scene::world_matrices(scene, document.time);
-  std::vector<scene::ProbePlace> places;
-  for (const SphlEdit& sphl : document.edits().sphls) {
-    if (sphl.enabled) places.push_back({sphl.name, sphl_position(scene, world, sphl), sphl.radius});
-  }
-  return places;
-}
-
-/// Every probe is dark in every group, where light is still to come or only edges count.
-void add_dark_groups(probes::ProbeSet& set, const std::vector<std::string>& groups) {
-  for (const std::string& group : groups) set.light_groups.push_back({group, vec3(1)});
-  for (probes::Probe& probe : set.probes)
-    probe.groups.assign(set.light_groups.size(), {{}, sh::RadianceSh(set.degree)});
-}
-
-}  // namespace
-
 template <class Places>
 void App::take_places(const std::string& what, const Places& places) {
   Edits edits = document.edits();
@@ -49,7 +27,7 @@ void App::take_places(const std::string& what, const Places& places) {
 }
 
 void App::light_scene_probes() {
-  if (places_of(document).empty())
+  if (document.places().empty())
     throw Error("probes", "the scene has no SPHLs", "let them be placed: --probes auto, or the button");
   rebuild_light();
 }
@@ -86,7 +64,7 @@ LiveLightParams App::light_params() const {
 
 void App::rebuild_light() {
   LiveLightParams params = light_params();
-  params.places = places_of(document);
+  params.places = document.places();
   if (params.places.empty()) {
     light.clear();
     say("there are no SPHLs left: direct light only");
@@ -115,52 +93,6 @@ void App::place_probes(float spacing) {
       say(fmt::format("{} probes", live->session().places().size()));
     };
   });
-}
-
-void App::start_gen(bool viz_only) {
-  const std::vector<scene::ProbePlace> places = places_of(document);
-  if (places.empty()) throw Error("GEN", "there are no SPHLs", "place some first");
-  auto scene = std::make_shared<const scene::Scene>(document.edited());
-  bake::BakeParams params = bake_params;
-  bake::ProbeDone on_probe;
-  // HIER multiplies edges with light band by band, so they must be of one degree.
-  const int degree = viz_only && !light.empty() ? light.set().degree : 9;
-  probes::ProbeSet set = place::init_from_scene(*scene, degree, document.time);
-  const float time = document.time;
-  if (viz_only) {
-    // Edges beside whatever light there is: VIZ alone, in a set of its own.
-    params.keep_light = true;
-    params.viz = true;
-    on_probe = [this](std::size_t i, const probes::Probe& probe) {
-      job.hand_over([this, i, edges = probe.edges] { light.take_edges(i, edges); });
-    };
-  } else {
-    on_probe = [this](std::size_t i, const probes::Probe& probe) {
-      job.hand_over([this, i, probe] { light.take_probe(i, probe); });
-    };
-    probes::ProbeSet dark = set;
-    add_dark_groups(dark, scene::light_groups(*scene));
-    light.take(std::move(dark), "GEN");
-  }
-  job.start(viz_only ? "VIZ" : "GEN",
-            [this, geometry = geometry_, scene, set, params, on_probe, time](const Control& control) mutable {
-              const trace::PathTracer tracer(geometry, *scene, time);
-              if (params.keep_light) add_dark_groups(set, tracer.light_groups());
-              bake::BakeReport bake_report;
-              auto baked = std::make_shared<probes::ProbeSet>(
-                  bake::bake(tracer, std::move(set), params, {}, bake_report, control, nullptr, on_probe));
-              const bool keep = params.keep_light;
-              return [this, baked, keep] {
-                if (keep) {
-                  light.not_saved("VIZ");
-                  say(fmt::format("VIZ: {} edges", probes::edge_count(*baked)));
-                } else {
-                  light.take(std::move(*baked), "GEN");
-                  light.not_saved("GEN");
-                  say("GEN is done");
-                }
-              };
-            });
 }
 
 void App::take_probe_file(const std::string& file) {

@@ -105,7 +105,7 @@ void App::take_document(Loaded loaded) {
   applied_.sphls = document.edits().sphls;
   screen_.forget();
   exposure_.forget();
-  applied_.light_stale = false;
+  applied_.light_stale = applied_.bakes_again = false;
   fly_speed = document.bounds.empty() ? 2 : std::max(0.2f, 0.25f * document.bounds.radius());
   update_title();
   redraw();

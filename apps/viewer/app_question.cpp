@@ -16,13 +16,11 @@ bool App::by_hand() const {
 
 std::string App::what_is_lost() const {
   if (!by_hand() || !scene_open()) return {};
-  const JobStatus status = job.status();
-  const bool bake = status.running && (status.name == "GEN" || status.name == "VIZ");
   std::string text;
   if (document.dirty()) text = fmt::format("{} has changes that are not saved.", document.source);
   if (!light.unsaved().empty())
     text += fmt::format("{}What {} has found is not saved.", text.empty() ? "" : "\n", light.unsaved());
-  if (bake) text += fmt::format("{}{} is not done yet.", text.empty() ? "" : "\n", status.name);
+  if (baking()) text += fmt::format("{}{} is not done yet.", text.empty() ? "" : "\n", job.status().name);
   return text;
 }
 

@@ -83,6 +83,8 @@ void ProbeLight::renderer_is_new() {
 void ProbeLight::take_probe(std::size_t i, const probes::Probe& probe) {
   if (!set_ || i >= set_->probes.size()) return;
   set_->probes[i].groups = probe.groups;
+  // VIZ comes after GEN: until then those of the glance before stay.
+  if (!probe.edges.empty()) set_->probes[i].edges = probe.edges;
   probes::merge_groups(*set_);
   light_new_ = true;
 }

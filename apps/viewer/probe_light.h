@@ -34,7 +34,8 @@ class ProbeLight {
   void saved() { unsaved_.clear(); }
   const std::string& unsaved() const { return unsaved_; }  ///< empty: nothing
   int works() const { return works_; }                     ///< a number of its own for each work
-  /// Light of one probe of a bake that is under way: `set` was taken at its start.
+  /// Light of one probe of a bake that is under way, and its edges once it has any: `set` was taken at its
+  /// start.
   void take_probe(std::size_t i, const probes::Probe& probe);
   /// Edges of VIZ for the same places.
   void take_edges(std::size_t i, std::vector<probes::Edge> edges);

@@ -66,6 +66,7 @@ struct Applied {
   std::shared_ptr<const scene::Scene> lamps_of;  ///< scene whose lamps the renderer has
   std::vector<scene::Material> materials;
   std::vector<SphlEdit> sphls;
+  bool bakes_again = false;  ///< it was a bake that was stopped for that
   bool light_stale = false;  ///< places, surfaces or lamps are others than those that the light was found for
   double stale_since = 0;
   /// Scene with whose lamps live light was asked for last, and the light that did not have them.

@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <ssphh/core/control.h>
+#include <ssphh/farm/dispatch.h>
 #include <ssphh/scene/scene.h>
 #include <ssphh/transport/transport_params.h>
 
@@ -27,6 +29,8 @@ struct ViewerOptions {
   int width = 1440, height = 810;
   bool panels = true;
   std::vector<std::pair<std::string, std::string>> settings;  ///< by setting_names()
+
+  const farm::FarmOptions* farm = nullptr;  ///< who does GEN and VIZ; null: this process
 
   std::string path;  ///< camera path file: the bookmarks; with `export_dir` also what is drawn
   std::string export_dir;
@@ -48,7 +52,8 @@ struct ViewerReport {
   int probes = 0;
   double median_ms = 0, p99_ms = 0;   ///< of a drawn frame
   std::uint64_t geometry_builds = 0;  ///< acceleration structures that were built, one for each opened scene
-  std::vector<std::string> written;   ///< files
+  std::optional<farm::FarmReport> farm;  ///< of the last bake, if a farm did it
+  std::vector<std::string> written;      ///< files
 };
 
 /// Loads a scene as the tool's options say (overlay, environment); throws Error.

@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/farm/ask.h>
 #include <ssphh/majordomo/broker.h>
 #include <ssphh/majordomo/client.h>
 #include <ssphh/majordomo/worker.h>
 
-#include "commands/farm_ask.h"
 #include "error_message.h"
 #include "here.h"
 #include "temp_dir.h"
@@ -87,9 +87,9 @@ TEST_F(FailingFarm, WorkersLeaveWhoseNameBeginsSo) {
 
 TEST_F(FailingFarm, QuestionsThatCannotBeAnsweredSayWhy) {
   majordomo::Client client({.endpoint = endpoint_});
-  EXPECT_EQ(test::message_of([&] { app::ask(client, "mmi.nothing", "", {}); }),
+  EXPECT_EQ(test::message_of([&] { farm::ask(client, "mmi.nothing", "", {}); }),
             "mmi.nothing: the broker does not know it (is it an older one?)");
-  EXPECT_EQ(test::message_of([&] { app::ask_json(client, "mmi.drain", {}); }),
+  EXPECT_EQ(test::message_of([&] { farm::ask_json(client, "mmi.drain", {}); }),
             "mmi.drain: the broker's answer is no JSON object");
   EXPECT_EQ(problem_here(farm("drop", {"7"})), "mmi.drop: job 7 is not set aside");
   EXPECT_EQ(problem_here(farm("release")),

@@ -202,6 +202,42 @@ TEST_F(View, AnswersTheWindowSystemsMouseAndKeys) {
   EXPECT_NE(a.pixels, b.pixels) << "the drag turned the view";
 }
 
+/// Process ids of workers that a process has started.
+std::vector<pid_t> workers_of(pid_t parent) {
+  std::vector<pid_t> workers;
+  for (const auto& task : std::filesystem::directory_iterator(fmt::format("/proc/{}/task", parent))) {
+    std::ifstream children(task.path() / "children");
+    for (pid_t child = 0; children >> child;) {
+      std::ifstream line(fmt::format("/proc/{}/cmdline", child));
+      const std::string arguments(std::istreambuf_iterator<char>(line), {});
+      if (arguments.find(std::string("\0worker\0", 8)) != std::string::npos) workers.push_back(child);
+    }
+  }
+  return workers;
+}
+
+TEST_F(View, AKilledWorkerOfItsFarmCostsARetryAndNoBit) {
+  const auto bake = [&](const std::string& name) {
+    return script("gen\nsettle\nsave " + path(name) + "\nquit\n");
+  };
+  const std::vector<std::string> small = {"view",     "builtin:two-rooms", "--size",    "64x64",
+                                          "--probes", "auto:1.3",          "--records", "0",
+                                          "--json",   "--no-panels",       "--script"};
+  test::ToolProcess viewer(
+      joined(small, {bake("farm.sphl"), "--local", "2", "--cache", "none", "--progress", "plain"}));
+  ASSERT_TRUE(viewer.wait_for_stderr("2 workers")) << viewer.stderr_so_far();
+  const std::vector<pid_t> workers = workers_of(viewer.pid());
+  ASSERT_EQ(workers.size(), 2u);
+  ::kill(workers[0], SIGKILL);
+  const test::ToolResult result = viewer.wait();
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json::Value run = test::parse_json(result.out);
+  EXPECT_THAT(result.err, HasSubstr("has ended; it is started again"));
+  EXPECT_GE(run["farm"]["retries"].integer(), 1) << result.err;
+  run_json(joined(small, {bake("here.sphl")}));
+  EXPECT_TRUE(read_file(path("farm.sphl")) == read_file(path("here.sphl")));
+}
+
 TEST_F(View, BuildsAccelerationStructuresOnce) {
   const json::Value run =
       run_json({"view", "builtin:two-rooms", "--size", "64x64", "--no-panels", "--records", "0", "--show",
@@ -215,6 +251,8 @@ TEST_F(View, SaysWhatIsWrongWithItsInput) {
   expect_failure({"view", "builtin:cornell", "--exposure", "bright"}, "not a number", 2);
   expect_failure({"view", "builtin:cornell", "--size", "wide"}, "WIDTHxHEIGHT");
   expect_failure({"view", "builtin:cornell", "--export", path("f")}, "--path");
+  expect_failure({"view", "builtin:cornell", "--broker", "tcp://farm.example:5555"}, "--keys");
+  expect_failure({"view", "builtin:cornell", "--broker", "nonsense"}, "nonsense");
   expect_failure(joined(two_rooms, {"--script", script("time 1\nfly away\n")}),
                  {"line 2", "no command \"fly\""});
   expect_failure(joined(two_rooms, {"--script", script("light lamb off\n")}), {"line 1", "there are: lamp"});

@@ -1,34 +1,19 @@
 #include "commands/farm.h"
 
-#include <algorithm>
 #include <chrono>
 #include <thread>
 
 #include <fmt/format.h>
 
 #include <ssphh/core/counted.h>
-#include <ssphh/core/stopwatch.h>
+#include <ssphh/farm/ask.h>
 #include <ssphh/majordomo/security.h>
 
 #include "commands/command.h"
-#include "commands/farm_ask.h"
+#include "commands/farm_parked.h"
 
 namespace ssphh::app {
 namespace {
-
-const std::string stats_service = "mmi.stats", workers_service = "mmi.workers";
-
-std::uint64_t count(const json::Cursor& of, const char* name) {
-  return static_cast<std::uint64_t>(told_number(of, name));
-}
-
-/// Without questions to the broker, as those of `top` itself, which its totals count as well.
-double finished_jobs(const json::Value& stats) {
-  double sum = 0;
-  for (const json::Cursor& service : json::elements(json::Cursor(stats, stats_service)["services"]))
-    sum += told_number(service, "finished");
-  return sum;
-}
 
 std::vector<std::string> roles_of(FarmRole role) {
   if (role == FarmRole::client) return {"client", "worker:ssphh.blobs.*"};
@@ -46,49 +31,36 @@ FarmStatus run_farm_status(const BrokerChoice& broker, const Control& control) {
 }
 
 json::Value to_json(const FarmStatus& s, const BrokerChoice&) {
-  return {{"stats", s.stats}, {"workers", json::Cursor(s.workers, workers_service)["workers"].value()}};
+  return {{"stats", s.stats}, {"workers", json::Cursor(s.workers, "mmi.workers")["workers"].value()}};
 }
 
 std::string to_text(const FarmStatus& s, const BrokerChoice&) {
-  const json::Cursor stats(s.stats, stats_service), workers(s.workers, workers_service);
-  const json::Cursor now = stats["now"], total = stats["total"];
-  std::string text =
-      fmt::format("{} ({} idle), {} queued, {} running, {} finished, {}, {} parked",
-                  counted(count(now, "workers"), "worker"), count(now, "idle"),
-                  counted(count(now, "queued"), "job"), count(now, "running"), count(total, "finished"),
-                  counted(count(total, "retries"), "retry", "retries"), count(total, "parked"));
+  const farm::FarmFigures f = farm::figures_of(s);
+  std::string text = fmt::format("{} ({} idle), {} queued, {} running, {} finished, {}, {} parked",
+                                 counted(f.workers, "worker"), f.idle, counted(f.queued, "job"), f.running,
+                                 f.finished, counted(f.retries, "retry", "retries"), f.parked);
   if (s.per_second) {
-    const double left = told_number(now, "queued") + told_number(now, "running");
     text += fmt::format("\n{:.2f} jobs/s", *s.per_second);
-    if (*s.per_second > 0 && left > 0) text += fmt::format(", about {:.0f} s left", left / *s.per_second);
+    if (f.seconds_left) text += fmt::format(", about {:.0f} s left", *f.seconds_left);
   }
   text += fmt::format("\n{:<48} {:>7} {:>6} {:>7} {:>9}", "service", "workers", "idle", "queued", "finished");
-  for (const json::Cursor& service : json::elements(stats["services"])) {
-    text +=
-        fmt::format("\n{:<48} {:>7} {:>6} {:>7} {:>9}", service.text_or("name"), count(service, "workers"),
-                    count(service, "idle"), count(service, "queued"), count(service, "finished"));
+  for (const farm::FarmFigures::Service& service : f.services) {
+    text += fmt::format("\n{:<48} {:>7} {:>6} {:>7} {:>9}", service.name, service.workers, service.idle,
+                        service.queued, service.finished);
   }
   text += fmt::format("\n{:<30} {:<8} {:>9} {:>7}  {}", "worker", "state", "for", "served", "service");
-  for (const json::Cursor& worker : json::elements(workers["workers"])) {
-    text += fmt::format("\n{:<30} {:<8} {:>7.1f} s {:>7}  {}", worker.text_or("name"),
-                        worker.text_or("state"), told_number(worker, "since_ms") / 1000,
-                        count(worker, "served"), worker.text_or("service"));
+  for (const farm::FarmFigures::Worker& worker : f.each_worker) {
+    text += fmt::format("\n{:<30} {:<8} {:>7.1f} s {:>7}  {}", worker.name, worker.state, worker.seconds,
+                        worker.served, worker.service);
   }
   return text;
 }
 
 void run_farm_top(const FarmTopOptions& o, const std::function<void(const FarmStatus&)>& show,
                   const Control& control) {
-  majordomo::Client client = connect(o.broker);
-  std::optional<double> before;
-  Stopwatch watch;
+  farm::StatusWatch watch(broker_address(o.broker));
   for (int i = 0; o.count == 0 || i < o.count; ++i) {
-    FarmStatus status{
-        ask_json(client, stats_service, control), ask_json(client, workers_service, control), {}};
-    const double finished = finished_jobs(status.stats);
-    if (before) status.per_second = std::max(0.0, finished - *before) / watch.seconds();
-    before = finished, watch = {};
-    show(status);
+    show(watch.look(control));
     for (double waited = 0; waited < o.interval && (o.count == 0 || i + 1 < o.count); waited += 0.05) {
       control.check();
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -97,8 +69,8 @@ void run_farm_top(const FarmTopOptions& o, const std::function<void(const FarmSt
 }
 
 FarmDrainResult run_farm_drain(const FarmDrainOptions& o, const Control& control) {
-  majordomo::Client client = connect(o.broker);
-  return {std::atoi(ask(client, "mmi.drain", o.workers, control).c_str())};
+  majordomo::Client client = farm::connect(broker_address(o.broker));
+  return {std::atoi(farm::ask(client, "mmi.drain", o.workers, control).c_str())};
 }
 
 json::Value to_json(const FarmDrainResult& result, const FarmDrainOptions&) {

@@ -12,15 +12,13 @@
 #include <ssphh/core/control.h>
 #include <ssphh/core/enum_names.h>
 #include <ssphh/core/json.h>
+#include <ssphh/farm/status.h>
 
 #include "options/farm_options.h"
 
 namespace ssphh::app {
 
-struct FarmStatus {
-  json::Value stats, workers;        ///< answers of mmi.stats and mmi.workers (docs/protocol.md)
-  std::optional<double> per_second;  ///< jobs that were finished since the look before; none: it is the first
-};
+using farm::FarmStatus;
 FarmStatus run_farm_status(const BrokerChoice& broker, const Control& control = {});
 json::Value to_json(const FarmStatus& result, const BrokerChoice& broker);
 std::string to_text(const FarmStatus& result, const BrokerChoice& broker);

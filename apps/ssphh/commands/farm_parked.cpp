@@ -1,11 +1,13 @@
+#include "commands/farm_parked.h"
+
 #include <fmt/format.h>
 
 #include <ssphh/core/counted.h>
 #include <ssphh/core/error.h>
+#include <ssphh/farm/ask.h>
 
 #include "commands/command.h"
 #include "commands/farm.h"
-#include "commands/farm_ask.h"
 
 namespace ssphh::app {
 namespace {
@@ -15,10 +17,10 @@ const std::string parked_service = "mmi.parked";
 int tell(const FarmJobsOptions& choice, const std::string& service, const Control& control) {
   if (choice.jobs.empty() && !choice.all)
     throw Error("jobs", "none are named", "give their numbers (`ssphh farm parked`) or --all");
-  majordomo::Client client = connect(choice.broker);
-  if (choice.all) return std::stoi(ask(client, service, "all", control));
+  majordomo::Client client = farm::connect(broker_address(choice.broker));
+  if (choice.all) return std::stoi(farm::ask(client, service, "all", control));
   for (const std::uint64_t job : choice.jobs)
-    ask(client, service, std::to_string(job), control, fmt::format("job {} is not set aside", job));
+    farm::ask(client, service, std::to_string(job), control, fmt::format("job {} is not set aside", job));
   return static_cast<int>(choice.jobs.size());
 }
 
@@ -35,8 +37,8 @@ void add_choice(Command command, FarmJobsOptions& choice) {
 }  // namespace
 
 FarmParkedResult run_farm_parked(const BrokerChoice& broker, const Control& control) {
-  majordomo::Client client = connect(broker);
-  const json::Value answer = ask_json(client, parked_service, control);
+  majordomo::Client client = farm::connect(broker_address(broker));
+  const json::Value answer = farm::ask_json(client, parked_service, control);
   return {json::Cursor(answer, parked_service)["jobs"].value()};
 }
 
@@ -48,8 +50,8 @@ std::string to_text(const FarmParkedResult& result, const BrokerChoice&) {
   std::string text;
   for (const json::Cursor& job : json::elements(json::Cursor(result.jobs, parked_service, "jobs"))) {
     text += fmt::format("{}job {} of {}, {:.1f} KB, set aside {:.0f} s ago", text.empty() ? "" : "\n",
-                        told_number(job, "job"), job.text_or("service"), 1e-3 * told_number(job, "bytes"),
-                        1e-3 * told_number(job, "since_ms"));
+                        farm::told_number(job, "job"), job.text_or("service"),
+                        1e-3 * farm::told_number(job, "bytes"), 1e-3 * farm::told_number(job, "since_ms"));
     if (!job.has("failures")) continue;
     for (const json::Cursor& failure : json::elements(job["failures"])) text += "\n  " + failure.text();
   }

@@ -65,6 +65,8 @@ viewer::ViewerReport run_view(const ViewOptions& o, const Control& control) {
     scene.source = source;
     return load_lit_scene(scene);
   };
+  const std::optional<FarmSession> farm = farm_session(o.farm);
+  v.farm = farm ? &farm->options() : nullptr;
   const GeometryBuilds builds;
   viewer::ViewerReport report = viewer::run_viewer(v, load, control);
   report.geometry_builds = builds.count();
@@ -72,15 +74,19 @@ viewer::ViewerReport run_view(const ViewOptions& o, const Control& control) {
 }
 
 json::Value to_json(const viewer::ViewerReport& r, const ViewOptions&) {
-  return {{"frames", r.frames},       {"renderer", r.renderer}, {"probes", r.probes},
-          {"median_ms", r.median_ms}, {"p99_ms", r.p99_ms},     {"geometry_builds", r.geometry_builds},
-          {"written", r.written}};
+  json::Value object = {{"frames", r.frames},  {"renderer", r.renderer},
+                        {"probes", r.probes},  {"median_ms", r.median_ms},
+                        {"p99_ms", r.p99_ms},  {"geometry_builds", r.geometry_builds},
+                        {"written", r.written}};
+  if (r.farm) object["farm"] = farm_json(*r.farm);
+  return object;
 }
 
 std::string to_text(const viewer::ViewerReport& r, const ViewOptions&) {
   std::string text =
       fmt::format("{} on {}, {}; a drawn frame took {:.1f} ms (median), {:.1f} ms (p99)",
                   counted(r.frames, "frame"), r.renderer, counted(r.probes, "probe"), r.median_ms, r.p99_ms);
+  if (r.farm) text += "\n" + farm_text(*r.farm);
   for (const std::string& file : r.written) text += "\nwrote " + file;
   return text;
 }
@@ -107,6 +113,8 @@ void add_view_command(Command app, Context& context) {
       .range(0, 1 << 16);
   probes.flag("--force", o.viewer.force, "Take a probe file of another scene, with a warning");
   add_setting_options(command, o);
+
+  add_farm_options(command, o.farm);
 
   const Command output = command.under("Without hands");
   output.option("--path", o.viewer.path, "Camera path (schemas/camera-path.schema.json): the bookmarks");

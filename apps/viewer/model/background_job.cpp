@@ -13,23 +13,27 @@ class BackgroundJob::Meter final : public Progress {
     const std::lock_guard lock(mutex_);
     stage_ = stage;
     total_ = total;
+    begun_ = std::chrono::steady_clock::now();
     done_.store(0, std::memory_order_relaxed);
   }
   void advance(std::uint64_t count) override { done_.fetch_add(count, std::memory_order_relaxed); }
   void end() override {}
 
-  void read(std::string& stage, double& fraction) const {
+  void read(JobStatus& status) const {
     const std::lock_guard lock(mutex_);
-    stage = stage_;
-    fraction = total_ == 0 ? -1
-                           : std::min(1.0, static_cast<double>(done_.load(std::memory_order_relaxed)) /
-                                               static_cast<double>(total_));
+    status.stage = stage_;
+    if (total_ == 0) return;
+    status.fraction = std::min(
+        1.0, static_cast<double>(done_.load(std::memory_order_relaxed)) / static_cast<double>(total_));
+    const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - begun_;
+    if (status.fraction > 0) status.stage_left = gone.count() * (1 / status.fraction - 1);
   }
 
  private:
   mutable std::mutex mutex_;
   std::string stage_;
   std::uint64_t total_ = 0;
+  std::chrono::steady_clock::time_point begun_;
   std::atomic<std::uint64_t> done_{0};
 };
 
@@ -100,7 +104,7 @@ JobStatus BackgroundJob::status() const {
   if (!name_.empty()) {
     const auto until = running_ ? std::chrono::steady_clock::now() : end_;
     status.seconds = std::chrono::duration<double>(until - start_).count();
-    meter_->read(status.stage, status.fraction);
+    meter_->read(status);
   }
   return status;
 }

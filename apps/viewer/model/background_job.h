@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -15,10 +16,11 @@
 namespace ssphh::viewer {
 
 struct JobStatus {
-  std::string name;      ///< of the job; empty: none was started yet
-  std::string stage;     ///< what it is at
-  double fraction = -1;  ///< of the stage, 0..1; −1: not known
-  double seconds = 0;    ///< since the start
+  std::string name;                  ///< of the job; empty: none was started yet
+  std::string stage;                 ///< what it is at
+  double fraction = -1;              ///< of the stage, 0..1; −1: not known
+  double seconds = 0;                ///< since the start
+  std::optional<double> stage_left;  ///< seconds of the stage that are left at its mean rate; none: not known
   bool running = false;
   std::string error;  ///< why the last job ended without a result; empty: it did not, or was cancelled
 };

@@ -24,6 +24,15 @@ Document make_document(std::string source, scene::Scene scene, float time) {
   return document;
 }
 
+std::vector<scene::ProbePlace> Document::places() const {
+  const std::vector<mat4> world = scene::world_matrices(*scene, time);
+  std::vector<scene::ProbePlace> places;
+  for (const SphlEdit& sphl : edits().sphls) {
+    if (sphl.enabled) places.push_back({sphl.name, sphl_position(*scene, world, sphl), sphl.radius});
+  }
+  return places;
+}
+
 bool Document::follow_lamps() {
   if (has_lamps(*scene, edits())) return true;
   // Once all lamps are as they were, so is the scene.

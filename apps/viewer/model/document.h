@@ -31,6 +31,8 @@ struct Document {
   scene::LightingState lighting() const { return edited_lighting(*scene, edits(), time); }
   /// The scene with all edits done.
   scene::Scene edited() const { return edited_scene(*opened, edits(), time); }
+  /// Where its SPHLs stand now; those that are switched off are left out.
+  std::vector<scene::ProbePlace> places() const;
   /// As those of the history.
   bool undo() { return history.undo() && follow_lamps(); }
   bool redo() { return history.redo() && follow_lamps(); }

@@ -162,6 +162,12 @@ bool same_places(const std::vector<SphlEdit>& a, const std::vector<SphlEdit>& b)
   });
 }
 
+bool same_light(const Edits& a, const Edits& b) {
+  const auto sky = [](const Edits& e) { return e.sky ? e.sky->image : nullptr; };
+  return a.lights == b.lights && a.environment_rotation == b.environment_rotation && sky(a) == sky(b) &&
+         std::ranges::equal(a.materials, b.materials, same_surface);
+}
+
 vec3 sphl_position(const scene::Scene& scene, const std::vector<mat4>& world, const SphlEdit& sphl) {
   if (sphl.position) return *sphl.position;
   return vec3(world[index(scene.sphls[index(sphl.source)].node)][3]);

@@ -73,6 +73,9 @@ scene::Scene with_materials(scene::Scene scene, const Edits& edits);
 /// Whether both lists ask for probes at the same places; names and radii do not count.
 bool same_places(const std::vector<SphlEdit>& a, const std::vector<SphlEdit>& b);
 
+/// Whether a bake finds the same light with both: SPHLs, cameras and factors on groups do not count.
+bool same_light(const Edits& a, const Edits& b);
+
 /// World position of an SPHL at `time`.
 vec3 sphl_position(const scene::Scene& scene, const std::vector<mat4>& world, const SphlEdit& sphl);
 

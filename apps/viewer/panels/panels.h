@@ -27,6 +27,8 @@ void draw_scene_panel(App& app);
 void draw_camera_panel(App& app);
 void draw_picture_panel(App& app);
 void draw_stats_panel(App& app);
+/// Only where there is a farm.
+void draw_farm_panel(App& app);
 void draw_time_bar(App& app);
 void draw_help(App& app);
 /// Over the picture: the histogram, and the legend of false colours.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <span>
 
 #include <imgui.h>
 
@@ -17,7 +18,12 @@ constexpr struct {
   void (*draw)(App&);
 } tabs[] = {{"Light", draw_light_panel},   {"Probes", draw_probe_panel},    {"Surfaces", draw_surface_panel},
             {"Camera", draw_camera_panel}, {"Picture", draw_picture_panel}, {"Times", draw_stats_panel},
-            {"Scene", draw_scene_panel}};
+            {"Scene", draw_scene_panel},   {"Farm", draw_farm_panel}};
+
+/// Of a farm there is nothing to tell where there is none.
+std::size_t tab_count(const App& app) {
+  return std::size(tabs) - (app.farm ? 0 : 1);
+}
 
 /// By the size of the text, so that words have room however dense the screen is; the picture keeps a share.
 float panel_width(const App& app, float window) {
@@ -32,8 +38,7 @@ float tab_width(std::size_t i) {
 }
 
 /// As many in each row as lets whole words fit.
-std::size_t tabs_in_a_row(float room, float gap) {
-  const std::size_t count = std::size(tabs);
+std::size_t tabs_in_a_row(std::size_t count, float room, float gap) {
   for (std::size_t rows = 1; rows < count; ++rows) {
     const std::size_t in_a_row = (count + rows - 1) / rows;
     float widest = 0;
@@ -49,8 +54,8 @@ std::size_t tabs_in_a_row(float room, float gap) {
 
 void draw_tabs(App& app) {
   const float gap = 0.5f * ImGui::GetStyle().ItemSpacing.x;
-  const std::size_t in_a_row = tabs_in_a_row(ImGui::GetContentRegionAvail().x, gap);
-  for (std::size_t i = 0; i < std::size(tabs); ++i) {
+  const std::size_t in_a_row = tabs_in_a_row(tab_count(app), ImGui::GetContentRegionAvail().x, gap);
+  for (std::size_t i = 0; i < tab_count(app); ++i) {
     const auto& tab = tabs[i];
     if (i % in_a_row != 0) ImGui::SameLine(0, gap);
     const bool front = app.open_tab == tab.name;
@@ -95,7 +100,7 @@ float draw_sidebar(App& app, float y, float height) {
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoBringToFrontOnFocus);
   draw_tabs(app);
-  for (const auto& tab : tabs) {
+  for (const auto& tab : std::span(tabs).first(tab_count(app))) {
     if (app.open_tab != tab.name) continue;
     // Each keeps its place of scrolling.
     ImGui::BeginChild(tab.name);

@@ -9,6 +9,7 @@
 #include <ssphh/core/json_cursor.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/stopwatch.h>
+#include <ssphh/farm/ask.h>
 #include <ssphh/farm/dispatch.h>
 #include <ssphh/farm/engine.h>
 #include <ssphh/farm/job_cutter.h>
@@ -30,7 +31,7 @@ class Dispatcher {
         finished_(finished),
         messages_(options.messages),
         patience_(options.patience),
-        client_(client_options(options.broker)) {
+        client_(connect(options.broker)) {
     for (const UnitGroup& group : groups) {
       next_.push_back(0);
       cutters_.emplace_back(options.job_seconds);
@@ -60,13 +61,6 @@ class Dispatcher {
     std::vector<std::size_t> units;
     std::uint64_t number = 0;  ///< of the job, from 1
   };
-
-  static majordomo::ClientOptions client_options(const BrokerAddress& broker) {
-    majordomo::ClientOptions options;
-    options.endpoint = broker.endpoint;
-    options.security = broker.security;
-    return options;
-  }
 
   /// Two jobs for each worker, so that none waits for the next one.
   void submit_more() {

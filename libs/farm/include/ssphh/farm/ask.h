@@ -4,15 +4,13 @@
 #include <string>
 
 #include <ssphh/core/json_cursor.h>
+#include <ssphh/farm/blob_server.h>
 #include <ssphh/majordomo/client.h>
 
-#include "commands/command.h"
-#include "options/command_line.h"
-#include "options/farm_options.h"
+namespace ssphh::farm {
 
-namespace ssphh::app {
-
-majordomo::Client connect(const BrokerChoice& choice);
+/// A client that waits for its broker where that is not there yet. Throws Error as majordomo::Client does.
+majordomo::Client connect(const BrokerAddress& broker);
 
 /// The second frame of the answer. Throws Error when the code is not 200 (`not_found` is what 404 means) or
 /// none comes within five seconds.
@@ -23,7 +21,4 @@ json::Value ask_json(majordomo::Client& client, const std::string& service, cons
 /// A number that the answer may leave out, as older brokers do: 0 then.
 double told_number(const json::Cursor& of, const char* name);
 
-/// `ssphh farm parked`, `release` and `drop`.
-void add_farm_parked_commands(Command group, Context& context);
-
-}  // namespace ssphh::app
+}  // namespace ssphh::farm

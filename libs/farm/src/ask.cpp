@@ -1,14 +1,12 @@
-#include "commands/farm_ask.h"
-
 #include <ssphh/core/error.h>
+#include <ssphh/farm/ask.h>
 
-namespace ssphh::app {
+namespace ssphh::farm {
 
-majordomo::Client connect(const BrokerChoice& choice) {
-  const farm::BrokerAddress address = broker_address(choice);
+majordomo::Client connect(const BrokerAddress& broker) {
   majordomo::ClientOptions options;
-  options.endpoint = address.endpoint;
-  options.security = address.security;
+  options.endpoint = broker.endpoint;
+  options.security = broker.security;
   return majordomo::Client(options);
 }
 
@@ -35,4 +33,4 @@ double told_number(const json::Cursor& of, const char* name) {
   return number ? number->precise_number() : 0;
 }
 
-}  // namespace ssphh::app
+}  // namespace ssphh::farm
