@@ -152,6 +152,10 @@ std::vector<Contract> of_grids() {
               EXPECT_EQ(grid.cells, glm::ivec3(1)) << "as probes at one place have it";
               EXPECT_EQ(grid.length, 2);
             }),
+      gives("CandidateGrid", "OfNoProbes",
+            [=] {
+              for (const int probe : probes::make_candidate_grid({}, box, 1).lists) EXPECT_EQ(probe, -1);
+            }),
       refuses("ProbeReach", "OfFewerProbes",
               [=] { probes::probe_reach(probes::make_candidate_grid(probes, box, 1), {}); },
               {"other probes"}),

@@ -60,6 +60,7 @@ CandidateGrid make_candidate_grid(std::span<const vec3> probes, const scene::Bou
       const vec3 place(c % grid.cells.x, c / grid.cells.x % grid.cells.y, c / (grid.cells.x * grid.cells.y));
       const vec3 middle = grid.origin + grid.cell_size * (place + 0.5f);
       const int wanted = nearest.find(middle, std::span(near).first(CandidateGrid::wanted));
+      if (wanted == 0) continue;
       const float farthest = std::sqrt(near[wanted - 1].distance2);
       const int found = nearest.find(middle, near, farthest + diagonal);
       const std::size_t possible =
