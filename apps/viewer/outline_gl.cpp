@@ -65,8 +65,8 @@ struct OutlineGl::Data {
         : positions(std::span<const vec3>(mesh.positions)),
           triangles(std::span<const uvec3>(mesh.triangles)),
           corners(static_cast<int>(3 * mesh.triangles.size())) {
-      array.attribute(0, positions, 3, sizeof(vec3), 0);
-      array.indices(triangles);
+      array.attribute(0, {positions.id(), 0, sizeof(vec3)}, 3);
+      array.indices(triangles.id());
     }
   };
   struct Body {

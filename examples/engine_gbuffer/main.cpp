@@ -1,5 +1,5 @@
 // An engine with a renderer of its own: draws depth and normals by plain OpenGL, has indirect light found on
-// them, and goes on.
+// them, of meshes that stay where they are, and goes on.
 
 #include <cstdio>
 
@@ -18,35 +18,37 @@ namespace {
 
 constexpr int width = 160, height = 90;
 
-// What an engine has anyway: its mesh, its program, its framebuffer.
+// What an engine has anyway: its meshes, its program, its framebuffer.
 class Engine {
  public:
-  explicit Engine(const scene::Scene& scene) {
-    const std::vector<mat4> world = scene::world_matrices(scene, 0);
-    for (const scene::Instance& instance : scene.instances) {
-      const scene::Mesh& mesh = scene.meshes[instance.mesh];
-      const mat4& place = world[instance.node];
-      for (const auto& triangle : mesh.triangles) {
-        vec3 p[3];
-        for (int i = 0; i < 3; ++i) p[i] = vec3(place * vec4(mesh.positions[triangle[i]], 1));
-        const vec3 normal = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
-        for (const vec3& corner : p) vertices_.insert(vertices_.end(), {corner, normal});
-      }
+  explicit Engine(const scene::Scene& scene) : scene_(scene), worlds_(scene::world_matrices(scene, 0)) {
+    struct Vertex {
+      vec3 position, normal;
+      vec2 uv;
+    };
+    std::vector<Vertex> vertices;
+    std::vector<uvec3> triangles;
+    for (const scene::Mesh& mesh : scene.meshes) {
+      places_.push_back({triangles.size() * sizeof(uvec3), vertices.size() * sizeof(Vertex)});
+      for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        vertices.push_back({mesh.positions[i], mesh.normals[i], mesh.uvs[0][i]});
+      triangles.insert(triangles.end(), mesh.triangles.begin(), mesh.triangles.end());
     }
-    glCreateBuffers(1, &buffer_);
-    glNamedBufferStorage(buffer_, static_cast<GLsizeiptr>(vertices_.size() * sizeof(vec3)), vertices_.data(),
-                         0);
-    glCreateVertexArrays(1, &mesh_);
-    glVertexArrayVertexBuffer(mesh_, 0, buffer_, 0, 2 * sizeof(vec3));
+    glCreateBuffers(2, buffers_);
+    glNamedBufferStorage(buffers_[0], GLsizeiptr(vertices.size() * sizeof(Vertex)), vertices.data(), 0);
+    glNamedBufferStorage(buffers_[1], GLsizeiptr(triangles.size() * sizeof(uvec3)), triangles.data(), 0);
+    glCreateVertexArrays(1, &array_);
+    glVertexArrayElementBuffer(array_, buffers_[1]);
     for (GLuint i = 0; i < 2; ++i) {
-      glEnableVertexArrayAttrib(mesh_, i);
-      glVertexArrayAttribFormat(mesh_, i, 3, GL_FLOAT, GL_FALSE, static_cast<GLuint>(i * sizeof(vec3)));
-      glVertexArrayAttribBinding(mesh_, i, 0);
+      glEnableVertexArrayAttrib(array_, i);
+      glVertexArrayAttribFormat(array_, i, 3, GL_FLOAT, GL_FALSE, GLuint(i * sizeof(vec3)));
+      glVertexArrayAttribBinding(array_, i, 0);
     }
     program_ = glCreateProgram();
     attach(GL_VERTEX_SHADER,
            "#version 450\nlayout(location = 0) in vec3 p; layout(location = 1) in vec3 n; out vec3 normal;\n"
-           "layout(location = 0) uniform mat4 m; void main() { gl_Position = m * vec4(p, 1); normal = n; }");
+           "layout(location = 0) uniform mat4 m; layout(location = 1) uniform mat4 world;\n"
+           "void main() { gl_Position = m * world * vec4(p, 1); normal = normalize(mat3(world) * n); }");
     attach(
         GL_FRAGMENT_SHADER,
         "#version 450\nin vec3 normal; out vec4 color; void main() { color = vec4(0.5 + 0.5 * normal, 1); }");
@@ -66,8 +68,30 @@ class Engine {
     glClear(GL_DEPTH_BUFFER_BIT | GL_COLOR_BUFFER_BIT);
     glUseProgram(program_);
     glUniformMatrix4fv(0, 1, GL_FALSE, &view_projection[0].x);
-    glBindVertexArray(mesh_);
-    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices_.size() / 2));
+    glBindVertexArray(array_);
+    for (const scene::Instance& instance : scene_.instances) {
+      const Place& place = places_[instance.mesh];
+      glUniformMatrix4fv(1, 1, GL_FALSE, &worlds_[instance.node][0].x);
+      glBindVertexBuffer(0, buffers_[0], GLintptr(place.vertices), vertex_bytes);
+      glDrawElements(GL_TRIANGLES, GLsizei(3 * scene_.meshes[instance.mesh].triangles.size()),
+                     GL_UNSIGNED_INT, reinterpret_cast<const void*>(place.triangles));
+    }
+  }
+
+  // Where its meshes are: the library draws them from there, too.
+  std::vector<realtime::MeshBuffers> meshes() const {
+    std::vector<realtime::MeshBuffers> all;
+    for (const Place& place : places_) {
+      const auto attribute = [&](std::size_t offset) {
+        return gl::VertexSource{buffers_[0], place.vertices + offset, vertex_bytes};
+      };
+      all.push_back({.mesh = int(all.size()),
+                     .positions = attribute(0),
+                     .normals = attribute(sizeof(vec3)),
+                     .uvs = {attribute(2 * sizeof(vec3))},
+                     .indices = {buffers_[1], place.triangles}});
+    }
+    return all;
   }
 
   GLuint depth() const { return textures_[0]; }
@@ -80,8 +104,14 @@ class Engine {
     glCompileShader(shader);
     glAttachShader(program_, shader);
   }
-  std::vector<vec3> vertices_;
-  GLuint buffer_ = 0, mesh_ = 0, program_ = 0, framebuffer_ = 0, textures_[2] = {};
+  static constexpr int vertex_bytes = 2 * sizeof(vec3) + sizeof(vec2);
+  struct Place {
+    std::size_t triangles, vertices;  // bytes into the two buffers
+  };
+  const scene::Scene& scene_;
+  std::vector<mat4> worlds_;
+  std::vector<Place> places_;  // of each mesh
+  GLuint buffers_[2] = {}, array_ = 0, program_ = 0, framebuffer_ = 0, textures_[2] = {};
 };
 
 }  // namespace
@@ -100,7 +130,7 @@ int main() {
   const probes::ProbeSet probes = bake::bake(tracer, place::init_from_scene(scene, 2), params, "", report);
 
   const Engine engine(scene);
-  realtime::Renderer renderer(context, scene);
+  realtime::Renderer renderer(context, scene, {}, 0, engine.meshes());
   renderer.set_probes(probes);
 
   const mat4 camera = scene::camera_pose(scene, "").world;

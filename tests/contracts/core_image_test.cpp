@@ -8,6 +8,7 @@
 #include <ssphh/image/cube_layout.h>
 #include <ssphh/image/exposure.h>
 #include <ssphh/image/io.h>
+#include <ssphh/image/ktx2.h>
 #include <ssphh/image/resample.h>
 #include <ssphh/image/sphere_map.h>
 #include <ssphh/image/tonemap.h>
@@ -87,6 +88,16 @@ std::vector<Contract> of_images() {
                 image::encode_exr(Image(2, 2), {&channel, 1});
               },
               {"two channels R"}),
+      refuses("Ktx2OfHalves", "OfAnotherSize",
+              [] {
+                image::ktx2_of_halves({2, 2, 2}, {});
+              },
+              {"KTX2"}),
+      refuses("Ktx2OfHalves", "OfANegativeSize",
+              [] {
+                image::ktx2_of_halves({-2, 2, 2}, {});
+              },
+              {"KTX2"}),
       refuses("EncodeHdr", "OfATornImage", [] { image::encode_hdr(torn_image()); }, {"number of pixels"}),
       refuses("EncodePng", "OfATornImage", [] { image::encode_png(torn_image()); },
               {"PNG", "number of pixels"}),

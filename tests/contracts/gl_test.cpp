@@ -201,6 +201,68 @@ std::vector<GlContract> of_renderer() {
   return rows;
 }
 
+/// `spoil` is given sound buffers of a quad with normals and texture coordinates, and one of 16 bytes.
+GlContract refuses_buffers(std::string given, std::function<void(realtime::MeshBuffers&, unsigned)> spoil,
+                           std::vector<std::string> words, int copies = 1) {
+  return {"MeshBuffers", std::move(given), [=](gl::Context& context) {
+            const scene::Scene scene = sound_scene();
+            const scene::Mesh& mesh = scene.meshes[0];
+            const gl::Buffer places(std::span<const vec3>(mesh.positions)),
+                normals(std::span<const vec3>(mesh.normals)), uvs(std::span<const vec2>(mesh.uvs[0])),
+                corners(std::span<const uvec3>(mesh.triangles)), little(16);
+            realtime::MeshBuffers buffers{.positions = {places.id(), 0, 12},
+                                          .normals = {normals.id(), 0, 12},
+                                          .uvs = {{{uvs.id(), 0, 8}, {}}},
+                                          .indices = {corners.id()}};
+            const auto make = [&] {
+              Renderer(context, scene, {}, 0, std::vector(static_cast<std::size_t>(copies), buffers));
+            };
+            if (copies == 1) make();
+            spoil(buffers, little.id());
+            expect_refusal(make, words);
+          }};
+}
+
+std::vector<GlContract> of_mesh_buffers() {
+  using realtime::MeshBuffers;
+  return {
+      refuses_buffers("OfNoMesh", [](MeshBuffers& b, unsigned) { b.mesh = 1; }, {"mesh 1", "scene has 1"}),
+      refuses_buffers("OfMeshMinusOne", [](MeshBuffers& b, unsigned) { b.mesh = -1; }, {"mesh -1"}),
+      refuses_buffers(
+          "OfOneMeshTwice", [](MeshBuffers&, unsigned) {}, {"mesh 0", "twice"}, 2),
+      refuses_buffers("WithoutPositions", [](MeshBuffers& b, unsigned) { b.positions = {}; },
+                      {"mesh 0, positions", "no buffer of number 0"}),
+      refuses_buffers("WithoutIndices", [](MeshBuffers& b, unsigned) { b.indices = {}; },
+                      {"mesh 0, indices", "no buffer of number 0"}),
+      refuses_buffers("WithoutNormalsThatTheSceneHas", [](MeshBuffers& b, unsigned) { b.normals = {}; },
+                      {"mesh 0, normals", "no buffer of number 0"}),
+      refuses_buffers("WithColorsThatTheSceneLacks",
+                      [](MeshBuffers& b, unsigned little) { b.colors.buffer = little; },
+                      {"mesh 0, colors", "has none"}),
+      refuses_buffers("OfANumberThatIsNoBuffer", [](MeshBuffers& b, unsigned) { b.uvs[0].buffer = 4567; },
+                      {"mesh 0, first uvs", "4567"}),
+      refuses_buffers("OfTooFewVertices", [](MeshBuffers& b, unsigned little) { b.normals.buffer = little; },
+                      {"mesh 0, normals", "48 bytes", "has 16"}),
+      refuses_buffers("OfTooFewCorners", [](MeshBuffers& b, unsigned little) { b.indices.buffer = little; },
+                      {"mesh 0, indices", "24 bytes", "has 16"}),
+      refuses_buffers("PastTheirEnd", [](MeshBuffers& b, unsigned) { b.positions.offset = 4; },
+                      {"mesh 0, positions", "from byte 4"}),
+      refuses_buffers("FarPastTheirEnd",
+                      [](MeshBuffers& b, unsigned) { b.positions.offset = ~std::size_t{0} - 3; },
+                      {"mesh 0, positions", "bytes from byte"}),
+      refuses_buffers("OfAStrideThatNoDriverTakes",
+                      [](MeshBuffers& b, unsigned) { b.positions.stride = std::size_t{1} << 40; },
+                      {"mesh 0, positions", "stride"}),
+      refuses_buffers("OfAStrideBetweenNumbers", [](MeshBuffers& b, unsigned) { b.positions.stride = 11; },
+                      {"mesh 0, positions", "stride", "multiple of 4"}),
+      refuses_buffers("NotAligned", [](MeshBuffers& b, unsigned) { b.indices.offset = 2; },
+                      {"mesh 0, indices", "multiple of 4"}),
+      refuses_buffers("OfNoComponent",
+                      [](MeshBuffers& b, unsigned) { b.normals.type = static_cast<gl::Component>(9); },
+                      {"component 9"}),
+  };
+}
+
 std::vector<GlContract> of_contexts() {
   static int heard = 0;
   static constexpr auto listen = [](GLenum, GLenum, GLuint, GLenum, GLsizei, const GLchar*,
@@ -261,6 +323,7 @@ std::string row_name(const testing::TestParamInfo<GlContract>& row) {
 }
 INSTANTIATE_TEST_SUITE_P(OfGl, GlContractTest, testing::ValuesIn(of_objects()), row_name);
 INSTANTIATE_TEST_SUITE_P(OfContexts, GlContractTest, testing::ValuesIn(of_contexts()), row_name);
+INSTANTIATE_TEST_SUITE_P(OfMeshBuffers, GlContractTest, testing::ValuesIn(of_mesh_buffers()), row_name);
 INSTANTIATE_TEST_SUITE_P(OfRenderer, GlContractTest, testing::ValuesIn(of_renderer()), row_name);
 
 }  // namespace

@@ -1,9 +1,12 @@
 /// Contracts of libs/scene and libs/scene_io.
 
 #include <ssphh/scene/builtin.h>
+#include <ssphh/scene/calendar.h>
 #include <ssphh/scene/primitives.h>
 #include <ssphh/scene/query.h>
+#include <ssphh/scene/sun_position.h>
 #include <ssphh/scene/sun_sky.h>
+#include <ssphh/scene/thing_alone.h>
 #include <ssphh/scene/with_lighting.h>
 #include <ssphh/scene_io/gltf.h>
 #include <ssphh/scene_io/gltf_export.h>
@@ -103,6 +106,18 @@ std::vector<Contract> of_scenes() {
                          {"each node"}));
   rows.push_back(gives("WorldMatrices", "AtNoTime",
                        [] { EXPECT_EQ(scene::world_matrices(sound_scene(), nan).size(), 2u); }));
+  scene::Instance nowhere;
+  nowhere.mesh = nowhere.node = 9;
+  rows.push_back(refuses("InstanceMaterial", "OfNoMesh",
+                         [=] { scene::instance_material(sound_scene(), nowhere); }, {"no such mesh"}));
+  rows.push_back(refuses("LightGroupOf", "AnInstanceAtNoNode",
+                         [=] { scene::light_group(sound_scene(), nowhere); }, {"no such node"}));
+  for (const int node : {-1, 9})
+    rows.push_back(refuses("ThingAlone", "AtNode" + std::string(node < 0 ? "MinusOne" : "Nine"),
+                           [node] { scene::thing_alone(sound_scene(), node); }, {"no such node"}));
+  for (const int month : {0, 13})
+    rows.push_back(refuses("DaysOfMonth", "Number" + std::to_string(month),
+                           [month] { scene::days_of_month(2026, month); }, {"1 to 12"}));
   rows.push_back(refuses("LightGroupIndex", "AmongNone", [] { scene::light_group_index({}, "lamp"); },
                          {"light groups", "none"}));
   rows.push_back(refuses("FindCamera", "OfNoName", [] { scene::find_camera(sound_scene(), "north"); },

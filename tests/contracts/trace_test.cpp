@@ -229,6 +229,13 @@ std::vector<Contract> of_tracers() {
                 trace::save_state(state, dir.path() / "x.state");
               },
               {"render state"}),
+      gives("PathTracer", "AskedOfNoPlace",
+            [] {
+              const trace::PathTracer tracer(the_scene());
+              EXPECT_EQ(tracer.backface_fraction(vec3(nan)), 0);
+              EXPECT_EQ(tracer.backface_fraction(vec3(1e30f, 0, 0)), 0);
+              EXPECT_TRUE(tracer.visible(vec3(0, -1, 0), vec3(nan)));
+            }),
       refuses("LoadState", "ThatIsNotThere", [] { trace::load_state("/nowhere/x.state", {}); }, {"/nowhere"}),
   };
   for (const SpoiltScene& s : spoilt_scenes()) {

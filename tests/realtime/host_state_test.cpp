@@ -9,6 +9,7 @@
 
 #include <ssphh/gl/buffer.h>
 
+#include "engines_meshes.h"
 #include "gl_context.h"
 #include "pictures.h"
 #include "stage.h"
@@ -54,7 +55,7 @@ std::map<std::string, std::vector<GLint64>> state_of_opengl() {
        {GL_CULL_FACE, GL_DEPTH_TEST, GL_STENCIL_TEST, GL_FRAMEBUFFER_SRGB, GL_RASTERIZER_DISCARD,
         GL_COLOR_LOGIC_OP, GL_POLYGON_OFFSET_FILL, GL_POLYGON_OFFSET_LINE, GL_DEPTH_CLAMP, GL_SAMPLE_MASK,
         GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_COVERAGE, GL_TEXTURE_CUBE_MAP_SEAMLESS, GL_MULTISAMPLE,
-        GL_DITHER, GL_PRIMITIVE_RESTART, GL_PROGRAM_POINT_SIZE})
+        GL_DITHER, GL_PRIMITIVE_RESTART, GL_PRIMITIVE_RESTART_FIXED_INDEX, GL_PROGRAM_POINT_SIZE})
     state[fmt::format("enabled {:#x}", what)] = {glIsEnabled(what)};
   for (GLuint i = 0; i < 8; ++i) state["blend " + std::to_string(i)] = {glIsEnabledi(GL_BLEND, i)};
   for (GLuint i = 0; i < 16; ++i) state["scissor " + std::to_string(i)] = {glIsEnabledi(GL_SCISSOR_TEST, i)};
@@ -123,6 +124,7 @@ class OddState {
     for (const GLenum what : switched_) glEnable(what);
     glDisable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
     glLogicOp(GL_INVERT);
+    glPrimitiveRestartIndex(2);
     glPolygonOffset(3, 5);
     glSampleMaski(0, 0);
     glDepthFunc(GL_NEVER), glDepthMask(GL_FALSE), glCullFace(GL_FRONT_AND_BACK), glFrontFace(GL_CW);
@@ -140,7 +142,8 @@ class OddState {
                                          GL_STENCIL_TEST,        GL_FRAMEBUFFER_SRGB,
                                          GL_COLOR_LOGIC_OP,      GL_RASTERIZER_DISCARD,
                                          GL_POLYGON_OFFSET_FILL, GL_DEPTH_CLAMP,
-                                         GL_SAMPLE_MASK,         GL_SAMPLE_ALPHA_TO_COVERAGE};
+                                         GL_SAMPLE_MASK,         GL_SAMPLE_ALPHA_TO_COVERAGE,
+                                         GL_PRIMITIVE_RESTART};
   GLuint cube_ = 0;
   gl::Texture texture_, array_;
   gl::Sampler sampler_{gl::Address::mirror, gl::Address::clamp, false};
@@ -182,6 +185,19 @@ TEST(HostState, IsAsItWasAndChangesNothingInThePicture) {
   const auto after = state_of_opengl();
   for (const auto& [name, values] : before) EXPECT_EQ(values, after.at(name)) << name;
   EXPECT_EQ(pixels(found), plain);
+
+  // The scene itself, as probes' maps show it, from an engine's buffers
+  const EnginesMeshes engine(scene);
+  Renderer fresh(*context, scene, {}, 0, engine.meshes);
+  fresh.set_probes(made_up_probes({{0, 1, 1}, {1, 1, 1}}));
+  const auto made = state_of_opengl();
+  for (const auto& [name, values] : after) {
+    if (name.ends_with("PACK_ALIGNMENT")) continue;
+    EXPECT_EQ(values, made.at(name)) << name << ", of the constructor";
+  }
+  const gl::Texture& light = fresh.draw_indirect(gbuffer, settings);
+  EXPECT_EQ(state_of_opengl(), made);
+  EXPECT_EQ(pixels(light), plain);
 
   realtime::GBuffer wrong = gbuffer;
   wrong.view_projection = mat4(0);

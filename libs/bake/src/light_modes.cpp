@@ -47,12 +47,13 @@ void set_light_modes(const rays::TransportSource& source, probes::ProbeSet& set,
                      std::span<const scene::LightMode> modes, const Control& control,
                      const LightScope& scope) {
   require(modes.size() == set.light_groups.size(), "light modes", "there is not one for each light group");
-  for (std::size_t g = 0; g < modes.size(); ++g) set.light_groups[g].mode = modes[g];
+  scope.require_within(set.probes.size(), set.light_groups.size());
   const std::vector<int> baked = baked_indices(modes);
-  if (baked.empty()) return;
-  if (!set.surface)
+  if (!baked.empty() && !set.surface)
     throw Error(fmt::format("light mode of \"{}\"", set.light_groups[baked[0]].name),
                 "baked light is kept at points of surfaces, and the set has none", "bake it with --records");
+  for (std::size_t g = 0; g < modes.size(); ++g) set.light_groups[g].mode = modes[g];
+  if (baked.empty()) return;
 
   std::vector<mat4> poses;
   for (int part = 0; part < source.part_count(); ++part)

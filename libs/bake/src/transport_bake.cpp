@@ -254,6 +254,7 @@ void add_transport(const rays::TransportSource& source, probes::ProbeSet& set,
                    const TransportBakeParams& params, TransportBakeReport& report, const Control& control,
                    const TransportScope& scope) {
   require_probes(set);
+  scope.light.require_within(set.probes.size(), set.light_groups.size());
   report = {};
   const bool edges = params.viz && !(scope.edges && scope.edges->empty()),
              records = params.records.points > 0;
@@ -277,6 +278,7 @@ TransportUpdate update_transport(const rays::TransportSource& source, probes::Pr
                                  float edge_change, TransportBakeReport& report, const Control& control) {
   require_probes(set);
   require_transport(params);
+  scope.require_within(set.probes.size(), set.light_groups.size());
   require(std::ranges::equal(set.light_groups, source.light_groups(), {}, &probes::LightGroup::name),
           "transport update", "the set is of other light groups than the scene");
   report = {};

@@ -4,6 +4,7 @@
 #include <ssphh/bake/gen.h>
 #include <ssphh/bake/update.h>
 #include <ssphh/core/random.h>
+#include <ssphh/core/require.h>
 #include <ssphh/core/stopwatch.h>
 
 namespace ssphh::bake {
@@ -127,6 +128,7 @@ UpdatePlan plan_update(const rays::RadianceSource& source, const probes::ProbeSe
     throw Error("tolerance", "it must be a share of a probe's light, 0 or more");
   require(std::ranges::equal(set.light_groups, source.light_groups(), {}, &probes::LightGroup::name),
           "update", "the set is of other light groups than the scene");
+  scope.require_within(set.probes.size(), set.light_groups.size());
   const Stopwatch watch;
   UpdatePlan plan;
   std::vector<float> noise;
@@ -195,6 +197,8 @@ void adopt_groups(probes::ProbeSet& set, std::span<const std::string> groups) {
 void renew_trials(probes::ProbeSet& set, const UpdatePlan& plan) {
   require(set.baseline && set.baseline->trials.size() == plan.trials.size(), "update",
           "the plan is of other probes");
+  for (const std::uint32_t i : plan.probes)
+    require(i < plan.trials.size(), "update", "the plan is of other probes");
   for (const std::uint32_t i : plan.probes) set.baseline->trials[i] = plan.trials[i];
 }
 

@@ -56,9 +56,16 @@ void draw_triangles(int vertex_count) {
   glDrawArrays(GL_TRIANGLES, 0, vertex_count);
 }
 
-void draw_indexed(int count, std::size_t first_index, int base_vertex) {
-  const void* offset = reinterpret_cast<const void*>(first_index * sizeof(unsigned));  // as GL wants it
-  glDrawElementsBaseVertex(GL_TRIANGLES, count, GL_UNSIGNED_INT, offset, base_vertex);
+std::size_t size_of(Index type) {
+  return type == Index::u8 ? 1 : type == Index::u16 ? 2 : 4;
+}
+
+void draw_indexed(int count, std::size_t first_index, int base_vertex, Index type) {
+  const void* offset = reinterpret_cast<const void*>(first_index * size_of(type));  // as GL wants it
+  const GLenum words = type == Index::u8    ? GL_UNSIGNED_BYTE
+                       : type == Index::u16 ? GL_UNSIGNED_SHORT
+                                            : GL_UNSIGNED_INT;
+  glDrawElementsBaseVertex(GL_TRIANGLES, count, words, offset, base_vertex);
 }
 
 void dispatch(const Buffer& groups) {

@@ -16,10 +16,12 @@ inline constexpr std::array changed_switches{GL_FRAMEBUFFER_SRGB,
                                              GL_DEPTH_CLAMP,
                                              GL_SAMPLE_MASK,
                                              GL_SAMPLE_ALPHA_TO_COVERAGE,
+                                             GL_PRIMITIVE_RESTART,
+                                             GL_PRIMITIVE_RESTART_FIXED_INDEX,
                                              GL_TEXTURE_CUBE_MAP_SEAMLESS,
                                              GL_DEPTH_TEST,
                                              GL_CULL_FACE,
                                              GL_STENCIL_TEST};
-inline constexpr std::span unwanted_switches = std::span(changed_switches).first<7>();
+inline constexpr std::span unwanted_switches = std::span(changed_switches).first<9>();
 
 }  // namespace ssphh::gl

@@ -242,22 +242,30 @@ TEST_F(GlDrawCalls, IndexedVerticesAreReadWhereTheirBufferHoldsThem) {
       numbers.insert(numbers.end(), {99, corner.x, corner.y, static_cast<float>(column)});
   const std::array<unsigned, 9> order{0, 1, 2, 3, 4, 5, 6, 7, 8};
   const Buffer corners{std::span<const float>(numbers)}, indices{std::span<const unsigned>(order)};
-  vertices->attribute(0, corners, 2, 16, 4);
-  vertices->attribute(3, corners, 1, 16, 12);
-  vertices->indices(indices);
+  vertices->attribute(0, {corners.id(), 4, 16}, 2);
+  vertices->attribute(3, {corners.id(), 12, 16}, 1);
+  vertices->indices(indices.id());
   Program columns = paint_program("vec2(-1 + 0.5 * column + 0.25 * (at.x + 1), at.y)",
                                   "layout(location = 0) in vec2 at;\nlayout(location = 3) in float column;");
   const Texture picture(Format::rgba32f, 4, 1);
   const Framebuffer into(std::array<const Texture*, 1>{&picture}, nullptr);
-  const auto drawn = [&](int count, std::size_t first, int base) {
+  const auto drawn = [&](int count, std::size_t first, int base, Index type = Index::u32) {
     paint(columns, into, 4, 1);
-    draw_indexed(count, first, base);
+    draw_indexed(count, first, base, type);
     return red_of(picture);
   };
   EXPECT_THAT(drawn(3, 0, 0), ElementsAre(1, 0, 0, 0));
   EXPECT_THAT(drawn(6, 0, 0), ElementsAre(1, 1, 0, 0));
   EXPECT_THAT(drawn(3, 6, 0), ElementsAre(0, 0, 1, 0));
   EXPECT_THAT(drawn(3, 3, 6), ElementsAre(0, 0, 0, 1));
+  const std::array<std::uint16_t, 5> words{9, 9, 3, 4, 5};
+  const std::array<std::uint8_t, 4> octets{9, 6, 7, 8};
+  const Buffer by_words{std::span<const std::uint16_t>(words)},
+      by_octets{std::span<const std::uint8_t>(octets)};
+  vertices->indices(by_words.id());
+  EXPECT_THAT(drawn(3, 2, 0, Index::u16), ElementsAre(0, 1, 0, 0));
+  vertices->indices(by_octets.id());
+  EXPECT_THAT(drawn(3, 1, 0, Index::u8), ElementsAre(0, 0, 1, 0));
 }
 
 // A software renderer orders commands without barriers, so that no picture there misses one.

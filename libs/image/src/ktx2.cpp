@@ -1,6 +1,7 @@
 #include <array>
 
 #include <ssphh/core/bytes.h>
+#include <ssphh/core/require.h>
 #include <ssphh/image/half.h>
 #include <ssphh/image/ktx2.h>
 
@@ -42,6 +43,10 @@ std::vector<std::byte> format_descriptor() {
 }  // namespace
 
 std::vector<std::byte> ktx2_of_halves(const glm::ivec3& size, std::span<const std::byte> texels) {
+  require(size.x > 0 && size.y > 0 && size.z >= 0 &&
+              texels.size() == texel_size * static_cast<u64>(size.x) * static_cast<u64>(size.y) *
+                                   static_cast<u64>(std::max(size.z, 1)),
+          "KTX2", "the texels are not those of such a size");
   const std::vector<std::byte> descriptor = format_descriptor();
   const u32 descriptor_at = header_size + level_index_size;
   const u64 end = descriptor_at + descriptor.size();

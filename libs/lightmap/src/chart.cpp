@@ -164,6 +164,7 @@ std::string second_uvs_problem(const scene::Mesh& mesh) {
 }
 
 Charts make_charts(const scene::Scene& scene, float time, const ChartParams& params, const Control& control) {
+  scene::check_indices(scene);
   const std::vector<mat4> world = scene::world_matrices(scene, time);
   Charts out;
   std::map<std::string, std::size_t> left_out;

@@ -36,6 +36,11 @@ Rgbm encode_rgbm(const image::Image& linear) {
 }
 
 vec3 decode_rgbm(const Rgbm& rgbm, int x, int y) {
+  const image::Rgba8& picture = rgbm.picture;
+  require(x >= 0 && x < picture.width && y >= 0 && y < picture.height &&
+              picture.rgba.size() ==
+                  4 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height),
+          "RGBM", "the picture has no such texel");
   const std::uint8_t* p = rgbm.picture.rgba.data() +
                           4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(rgbm.picture.width) +
                                static_cast<std::size_t>(x));

@@ -7,6 +7,7 @@
 #include <ssphh/core/counted.h>
 #include <ssphh/core/error.h>
 #include <ssphh/core/memory.h>
+#include <ssphh/core/require.h>
 #include <ssphh/lightmap/layout.h>
 
 namespace ssphh::lightmap {
@@ -15,7 +16,8 @@ namespace {
 /// What lighting takes: colours, places, normals, marks.
 constexpr std::uint64_t bytes_per_texel = 128;
 constexpr std::array default_sizes = {1024, 2048, 4096};
-constexpr float enough = 8;  ///< texels per metre for which no larger atlas is taken unasked
+constexpr float largest_chart = 1e9f;  ///< [m]
+constexpr float enough = 8;            ///< texels per metre for which no larger atlas is taken unasked
 
 /// Texels between the first and the last centre. A chart that is larger than an atlas can be has one too
 /// many.
@@ -104,6 +106,10 @@ Layout lay_out(std::span<const Chart> charts, const LayoutParams& params) {
   if (charts.empty())
     throw Error("lightmap", "the scene has no still surface that light could be kept for",
                 "what moves, unlit materials and clear glass have none");
+  for (const Chart& chart : charts)
+    require(chart.size.x >= 0 && chart.size.x <= largest_chart && chart.size.y >= 0 &&
+                chart.size.y <= largest_chart,
+            "lightmap", "the size of a chart must be metres of 0 to 1e9");
   if (params.size && (*params.size < 16 || *params.size > most_size))
     throw Error("lightmap", fmt::format("a size of {} texels", *params.size),
                 fmt::format("give 16 to {}", most_size));

@@ -7,6 +7,7 @@
 #include <ssphh/core/sphere.h>
 #include <ssphh/lightmap/light.h>
 
+#include "fit.h"
 #include "flat.h"
 
 namespace ssphh::lightmap {
@@ -154,6 +155,8 @@ void set(image::Image& atlas, std::uint32_t index, const vec3& value) {
 
 Places find_places(const Texels& texels, const rays::PosedWorld& world, const Control& control) {
   const std::size_t count = texels.texels.size();
+  for (const Texel& texel : texels.texels)
+    require(texel.face < texels.faces.size(), "lightmap texels", "a texel is of no face");
   Places out{std::vector<rays::SurfacePoint>(count), std::vector<std::uint8_t>(count, 0), 0};
   const scene::Bounds& bounds = world.bounds();
   const float gap = lift * (bounds.empty() ? 0 : bounds.radius() + max_component(glm::abs(bounds.center())));
@@ -189,6 +192,15 @@ image::Image light_texels(const Texels& texels, const Places& places, const Irra
                           const Control& control) {
   require(places.points.size() == texels.texels.size() && places.hidden.size() == texels.texels.size(),
           "lightmap", "the places are of other texels");
+  require(irradiance != nullptr, "lightmap", "nothing tells the irradiance of a place");
+  require_places(texels.places, texels.width, texels.height, "lightmap texels");
+  const auto size = static_cast<std::size_t>(texels.width) * static_cast<std::size_t>(texels.height);
+  for (const Texel& texel : texels.texels)
+    require(texel.index < size && texel.face < texels.faces.size(), "lightmap texels",
+            "a texel is outside of the atlas or of no face");
+  require(texels.first.size() == texels.places.size() + 1 && std::ranges::is_sorted(texels.first) &&
+              texels.first.back() <= texels.texels.size(),
+          "lightmap texels", "charts do not begin in their order");
   image::Image atlas(texels.width, texels.height);
   ProgressStage stage(control, "light of texels", texels.texels.size(), "texels");
   parallel_for(
@@ -225,6 +237,8 @@ image::Image light_texels(const Texels& texels, const Places& places, const Irra
 }
 
 vec3 sample(const image::Image& atlas, const vec2& uv) {
+  image::require_whole(atlas, "lightmap");
+  require(atlas.channels == 3, "lightmap", "an image of three channels is needed");
   const vec2 place = uv * vec2(atlas.width, atlas.height) - 0.5f, low = glm::floor(place), t = place - low;
   const auto fetch = [&](float x, float y) {
     return atlas.rgb(glm::clamp(static_cast<int>(x), 0, atlas.width - 1),

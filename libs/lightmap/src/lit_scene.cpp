@@ -5,6 +5,8 @@
 #include <ssphh/lightmap/lit_scene.h>
 #include <ssphh/scene/query.h>
 
+#include "fit.h"
+
 namespace ssphh::lightmap {
 namespace {
 
@@ -69,9 +71,7 @@ scene::Material with_first_set(scene::Material material) {
 }  // namespace
 
 scene::Scene with_lightmap(scene::Scene scene, std::span<const Chart> charts, const Layout& layout) {
-  require(charts.size() == layout.places.size(), "lightmap scene", "the layout is of other charts");
-  for (const Chart& chart : charts)
-    require(chart.instance < scene.instances.size(), "lightmap scene", "the charts are of another scene");
+  require_fit(scene, charts, layout, "lightmap scene");
   const std::size_t old_meshes = scene.meshes.size();
   std::map<int, int> moved_materials;
   std::vector<std::uint8_t> lit(scene.instances.size(), 0);

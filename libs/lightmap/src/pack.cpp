@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include <ssphh/core/require.h>
 #include <ssphh/lightmap/pack.h>
 
 namespace ssphh::lightmap {
@@ -47,6 +48,8 @@ class Skyline {
 }  // namespace
 
 std::optional<Packing> pack(std::span<const glm::ivec2> sizes, int width, int height) {
+  for (const glm::ivec2& size : sizes)
+    require(size.x > 0 && size.y > 0, "packing", "the size of a rectangle must be over 0");
   std::vector<std::size_t> order(sizes.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::ranges::sort(order, [&](std::size_t a, std::size_t b) {

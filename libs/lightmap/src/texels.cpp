@@ -7,6 +7,7 @@
 #include <ssphh/core/require.h>
 #include <ssphh/lightmap/texels.h>
 
+#include "fit.h"
 #include "flat.h"
 #include "world_mesh.h"
 
@@ -124,9 +125,7 @@ std::vector<Texel> chart_texels(std::span<const Face> faces, std::uint32_t first
 
 Texels make_texels(const scene::Scene& scene, float time, std::span<const Chart> charts, const Layout& layout,
                    const Control& control) {
-  require(charts.size() == layout.places.size(), "lightmap texels", "the layout is of other charts");
-  for (const Chart& chart : charts)
-    require(chart.instance < scene.instances.size(), "lightmap texels", "the charts are of another scene");
+  require_fit(scene, charts, layout, "lightmap texels");
   const std::vector<mat4> world = scene::world_matrices(scene, time);
   Texels out;
   out.width = layout.width, out.height = layout.height, out.places = layout.places;

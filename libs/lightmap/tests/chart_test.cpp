@@ -192,6 +192,8 @@ TEST(Charts, WhatMovesShinesOrIsClearHasNone) {
   scene.nodes[0].movable = true;
   scene.materials[1].unlit = true;
   scene.materials[2].transmission = 1;
+  scene.textures.resize(1);
+  scene.textures[0].width = scene.textures[0].height = 1, scene.textures[0].rgba.assign(4, 255);
   scene.materials[3].base_color_texture = {.texture = 0, .uv_set = 1};
   scene.materials[3].normal_texture = {.texture = 0, .uv_set = 0};
   const Charts charts = make_charts(scene, 0);

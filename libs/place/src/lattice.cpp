@@ -1,12 +1,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include <ssphh/core/require.h>
 #include <ssphh/place/lattice.h>
 
 namespace ssphh::place {
 namespace {
 
 constexpr int offset_count = 8;
+constexpr double most_places = 1 << 28;
 
 /// Offset, in spacings from box.min, that leaves as much room on both sides.
 vec3 centred_offset(const scene::Bounds& box, float spacing) {
@@ -55,6 +57,8 @@ double lattice_places(const scene::Bounds& box, float spacing) {
 }
 
 Lattice make_lattice(const scene::Bounds& box, float spacing, const vec3& offset) {
+  require(spacing > 0 && lattice_places(box, spacing) <= most_places, "lattice",
+          "the spacing must be over 0, and such that there are no more than 2^28 places");
   Lattice lattice;
   lattice.box = box;
   lattice.spacing = spacing;

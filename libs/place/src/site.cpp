@@ -2,6 +2,7 @@
 #include <array>
 
 #include <ssphh/core/parallel.h>
+#include <ssphh/core/require.h>
 #include <ssphh/core/sphere.h>
 #include <ssphh/place/site.h>
 
@@ -15,7 +16,7 @@ constexpr float usual_back_limit = 0.25f;
 Site look_around(const rays::TransportSource& source, const vec3& position, int rays) {
   std::array<rays::RayQuery, fan_size> queries;
   std::array<rays::RayHit, fan_size> hits;
-  SSPHH_CHECK(rays <= fan_size);
+  require(rays > 0 && rays <= fan_size, "look around", "rays must be 1 to 128");
   const auto count = static_cast<std::size_t>(rays);
   for (int i = 0; i < rays; ++i) {
     queries[i] = {position, spherical_fibonacci(i, rays)};

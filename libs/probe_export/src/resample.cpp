@@ -5,12 +5,15 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
+#include <ssphh/core/require.h>
 #include <ssphh/place/site.h>
 #include <ssphh/probe_export/light_grid.h>
 #include <ssphh/scene/probe_place.h>
 
 namespace ssphh::probe_export {
 namespace {
+
+constexpr std::size_t most_points = std::size_t{1} << 28;
 
 struct Neighbour {
   std::size_t index;
@@ -56,6 +59,9 @@ sh::RadianceSh mean_of(const std::vector<sh::RadianceSh>& light, const std::vect
 
 LightGrid resample(const probes::ProbeSet& set, const FreeLight& light, const rays::TransportSource& source,
                    const GridShape& shape, const Control& control) {
+  require(glm::all(glm::greaterThan(shape.size, glm::ivec3(0))) &&
+              glm::all(glm::lessThanEqual(shape.size, glm::ivec3(1 << 20))) && shape.count() <= most_points,
+          "grid", "it must have a point along each axis, and no more than 2^28 in all");
   LightGrid grid{shape, std::vector<sh::RadianceSh>(shape.count()), {}};
   std::vector<std::uint8_t> good(shape.count(), 0);
   const std::vector<vec3> positions = scene::positions_of(set.probes);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <ssphh/core/parallel.h>
+#include <ssphh/core/require.h>
 #include <ssphh/geometry/nearest.h>
 #include <ssphh/probes/candidate_grid.h>
 
@@ -35,7 +36,7 @@ CandidateGrid make_candidate_grid(std::span<const vec3> probes, const scene::Bou
   CandidateGrid grid;
   const vec3 extent = glm::max(bounds.max - bounds.min, vec3(1e-6f));
   grid.origin = bounds.min;
-  grid.cell_size = std::isfinite(spacing) ? spacing / 3 : max_component(extent);
+  grid.cell_size = std::isfinite(spacing) && spacing > 0 ? spacing / 3 : max_component(extent);
   const auto cells_of = [&](float size) { return glm::max(glm::ivec3(glm::ceil(extent / size)), 1); };
   // Twice the side, an eighth of the cells; as floats, for absurd spacings overflow integers
   const auto too_many = [&](float size) {
@@ -59,6 +60,7 @@ CandidateGrid make_candidate_grid(std::span<const vec3> probes, const scene::Bou
       const vec3 place(c % grid.cells.x, c / grid.cells.x % grid.cells.y, c / (grid.cells.x * grid.cells.y));
       const vec3 middle = grid.origin + grid.cell_size * (place + 0.5f);
       const int wanted = nearest.find(middle, std::span(near).first(CandidateGrid::wanted));
+      if (wanted == 0) continue;
       const float farthest = std::sqrt(near[wanted - 1].distance2);
       const int found = nearest.find(middle, near, farthest + diagonal);
       const std::size_t possible =
@@ -82,6 +84,12 @@ CandidateGrid make_candidate_grid(std::span<const vec3> probes, const scene::Bou
 }
 
 std::vector<float> probe_reach(const CandidateGrid& grid, std::span<const vec3> probes) {
+  const auto size = static_cast<std::size_t>(grid.length) * static_cast<std::size_t>(grid.cells.x) *
+                    static_cast<std::size_t>(grid.cells.y) * static_cast<std::size_t>(grid.cells.z);
+  require(
+      grid.lists.size() == size &&
+          std::ranges::all_of(grid.lists, [&](int probe) { return probe < static_cast<int>(probes.size()); }),
+      "candidate grid", "it is of other probes");
   std::vector<float> reach(probes.size(), 0);
   std::size_t entry = 0;
   for (int z = 0; z < grid.cells.z; ++z) {

@@ -44,6 +44,7 @@ void fit_linearly(std::span<SurfaceShare> shares, const Places& places, float to
 }  // namespace
 
 geometry::Balls surface_reach(std::span<const rays::SurfacePoint> points, std::span<const float> spacings) {
+  require(points.size() == spacings.size(), "surface points", "there is not one spacing for each");
   std::vector<vec3> centres;
   std::vector<float> radii;
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -7,6 +7,7 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
+#include <ssphh/core/require.h>
 #include <ssphh/probes/lookup_constants.h>
 #include <ssphh/probes/surface_interpolation.h>
 #include <ssphh/probes/surface_lists.h>
@@ -339,6 +340,8 @@ class Preparation {
 
 SurfaceLists prepare_surfaces(const scene::Scene& scene, float time, std::vector<rays::SurfacePoint> points,
                               const SeesProbe& sees, const Control& control) {
+  require(sees != nullptr, "surface points", "nothing tells what sees them");
+  scene::check_indices(scene);
   SurfaceLists out;
   out.points = std::move(points);
   if (out.points.size() > SurfaceLists::most_points)

@@ -4,9 +4,10 @@
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
-layout(location = 2) in vec4 uv;
+layout(location = 2) in vec2 uv_0;
 layout(location = 3) in vec4 tangent;
 layout(location = 4) in vec4 color;
+layout(location = 5) in vec2 uv_1;
 
 layout(location = 0) out vec3 from_camera;
 layout(location = 1) out vec3 world_normal;
@@ -19,7 +20,7 @@ void main() {
   from_camera = world - frame.camera_position.xyz;
   world_normal = mat3(instance.normal) * normal;
   world_tangent = vec4(mat3(instance.world) * tangent.xyz, tangent.w);
-  uv_out = uv;
+  uv_out = vec4(uv_0, uv_1);
   color_out = color;
 
   vec3 right = frame.camera_right.xyz / dot(frame.camera_right.xyz, frame.camera_right.xyz);

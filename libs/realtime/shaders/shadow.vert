@@ -7,8 +7,9 @@ uniform float near_plane;                 // 0: parallel, forward scaled to 1 / 
 
 layout(location = 0) in vec3 position;
 #ifdef ALPHA
-layout(location = 2) in vec4 uv;
+layout(location = 2) in vec2 uv_0;
 layout(location = 4) in vec4 color;
+layout(location = 5) in vec2 uv_1;
 layout(location = 0) out vec4 uv_out;
 layout(location = 1) out vec4 color_out;
 layout(location = 2) out vec3 from_light;
@@ -20,7 +21,7 @@ void main() {
   float z = dot(p, forward);
   gl_Position = near_plane > 0 ? vec4(plane, near_plane, z) : vec4(plane, 1 - z, 1);
 #ifdef ALPHA
-  uv_out = uv;
+  uv_out = vec4(uv_0, uv_1);
   color_out = color;
   from_light = p;
 #endif

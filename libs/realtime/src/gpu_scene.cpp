@@ -6,8 +6,6 @@
 
 #include <ssphh/rays/posed_world.h>
 
-#include "mesh_pieces.h"
-
 namespace ssphh::realtime {
 namespace {
 
@@ -55,19 +53,6 @@ bool partial_cover(const scene::Material& m, const scene::Mesh& mesh) {
          (m.alpha < 1 || m.base_color_texture.texture >= 0 || !mesh.colors.empty());
 }
 
-std::vector<GpuVertex> gpu_vertices(const scene::Mesh& mesh) {
-  std::vector<GpuVertex> vertices(mesh.positions.size());
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    GpuVertex& v = vertices[i];
-    if (!mesh.normals.empty()) v.normal = mesh.normals[i];
-    if (!mesh.uvs[0].empty()) v.uv.x = mesh.uvs[0][i].x, v.uv.y = mesh.uvs[0][i].y;
-    if (!mesh.uvs[1].empty()) v.uv.z = mesh.uvs[1][i].x, v.uv.w = mesh.uvs[1][i].y;
-    if (!mesh.tangents.empty()) v.tangent = mesh.tangents[i];
-    if (!mesh.colors.empty()) v.color = mesh.colors[i];
-  }
-  return vertices;
-}
-
 template <class T>
 void upload_block(FrameCounters& counters, gl::Buffer& buffer, const T& block, std::size_t index) {
   buffer.update_bytes(index * block_stride, std::as_bytes(std::span<const T>(&block, 1)));
@@ -87,9 +72,9 @@ void set_world(GpuInstance& instance, const mat4& world) {
 
 }  // namespace
 
-GpuScene::GpuScene(const scene::Scene& scene, const std::vector<mat4>& world, float anisotropy,
-                   FrameCounters& counters)
-    : anisotropy_(anisotropy) {
+GpuScene::GpuScene(const scene::Scene& scene, std::span<const MeshBuffers> engines,
+                   const std::vector<mat4>& world, float anisotropy, FrameCounters& counters)
+    : meshes_(make_meshes(scene, engines)), anisotropy_(anisotropy) {
   // Materials; the last one stands for "none"
   for (const scene::Material& m : scene.materials) materials_.push_back(gpu_material(m));
   materials_.push_back(gpu_material(plain_material));
@@ -100,20 +85,6 @@ GpuScene::GpuScene(const scene::Scene& scene, const std::vector<mat4>& world, fl
 
   // Groups
   const std::vector<std::string> groups = scene::light_groups(scene);
-
-  // Meshes one after the other
-  std::vector<vec3> positions;
-  std::vector<GpuVertex> vertices;
-  std::vector<unsigned> indices;
-  std::vector<std::vector<MeshPiece>> pieces;
-  std::vector<int> first_vertex;
-  for (const scene::Mesh& mesh : scene.meshes) {
-    first_vertex.push_back(static_cast<int>(positions.size()));
-    positions.insert(positions.end(), mesh.positions.begin(), mesh.positions.end());
-    const std::vector<GpuVertex> attributes = gpu_vertices(mesh);
-    vertices.insert(vertices.end(), attributes.begin(), attributes.end());
-    pieces.push_back(split_mesh(mesh, indices));
-  }
 
   // Instances
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
@@ -129,14 +100,16 @@ GpuScene::GpuScene(const scene::Scene& scene, const std::vector<mat4>& world, fl
     instances_.push_back(gpu);
     nodes_.push_back(instance.node);
     if (instance.mesh < 0) continue;
-    const auto mesh = static_cast<std::size_t>(instance.mesh);
-    const bool partial = partial_cover(none ? plain_material : scene.materials[m], scene.meshes[mesh]);
-    for (const MeshPiece& piece : pieces[mesh]) {
+    const GpuMesh& mesh = meshes_.meshes[instance.mesh];
+    const bool partial =
+        partial_cover(none ? plain_material : scene.materials[m], scene.meshes[instance.mesh]);
+    for (const MeshPiece& piece : mesh.pieces) {
       items_.push_back({static_cast<int>(i),
                         static_cast<int>(m),
                         0,
+                        mesh.arrays,
                         piece.index_count,
-                        first_vertex[mesh],
+                        mesh.first_vertex,
                         piece.first_index,
                         piece.bounds,
                         {},
@@ -146,22 +119,9 @@ GpuScene::GpuScene(const scene::Scene& scene, const std::vector<mat4>& world, fl
   }
   classify(scene.materials);
 
-  positions_ = gl::Buffer(std::span<const vec3>(positions));
-  vertices_ = gl::Buffer(std::span<const GpuVertex>(vertices));
-  indices_ = gl::Buffer(std::span<const unsigned>(indices));
   instance_buffer_ = gl::Buffer(instances_.size() * block_stride);
-  const std::size_t geometry = positions_.size() + vertices_.size() + indices_.size();
-  counters.bytes_uploaded += geometry;
-  bytes_ += geometry + instance_buffer_.size() + material_buffer_.size();
-
-  for (gl::VertexArray* array : {&all_, &position_only_}) {
-    array->attribute(0, positions_, 3, sizeof(vec3), 0);
-    array->indices(indices_);
-  }
-  all_.attribute(1, vertices_, 3, sizeof(GpuVertex), offsetof(GpuVertex, normal));
-  all_.attribute(2, vertices_, 4, sizeof(GpuVertex), offsetof(GpuVertex, uv));
-  all_.attribute(3, vertices_, 4, sizeof(GpuVertex), offsetof(GpuVertex, tangent));
-  all_.attribute(4, vertices_, 4, sizeof(GpuVertex), offsetof(GpuVertex, color));
+  counters.bytes_uploaded += meshes_.bytes();
+  bytes_ += meshes_.bytes() + instance_buffer_.size() + material_buffer_.size();
 
   std::vector<scene::Bounds> ignored;
   pose(world, ignored, counters);
@@ -188,8 +148,8 @@ void GpuScene::classify(const std::vector<scene::Material>& materials) {
     any_glass_ |= item.glass;
   }
   std::ranges::stable_sort(items_, [](const DrawItem& a, const DrawItem& b) {
-    return std::tuple(a.filters(), a.glass, a.textures, a.surface_class, a.material) <
-           std::tuple(b.filters(), b.glass, b.textures, b.surface_class, b.material);
+    return std::tuple(a.filters(), a.glass, a.textures, a.surface_class, a.material, a.arrays) <
+           std::tuple(b.filters(), b.glass, b.textures, b.surface_class, b.material, b.arrays);
   });
 }
 
@@ -240,7 +200,8 @@ void GpuScene::set_group_scale(int group, const vec3& scale, FrameCounters& coun
 }
 
 void GpuScene::begin(bool positions_only) const {
-  (positions_only ? position_only_ : all_).bind();
+  positions_only_ = positions_only;
+  bound_arrays_ = nullptr;
   bound_material_ = bound_instance_ = -1;
 }
 
@@ -255,7 +216,12 @@ void GpuScene::draw(const DrawItem& item, bool textures, FrameCounters& counters
         binding::instance_block, static_cast<std::size_t>(item.instance) * block_stride, sizeof(GpuInstance));
     bound_instance_ = item.instance;
   }
-  gl::draw_indexed(item.index_count, item.first_index, item.base_vertex);
+  const MeshArrays& arrays = meshes_.arrays[item.arrays];
+  if (&arrays != bound_arrays_) {
+    (positions_only_ ? arrays.position_only : arrays.all).bind();
+    bound_arrays_ = &arrays;
+  }
+  gl::draw_indexed(item.index_count, item.first_index, item.base_vertex, arrays.index);
   ++counters.draw_calls;
   counters.triangles += static_cast<std::uint64_t>(item.index_count / 3);
 }

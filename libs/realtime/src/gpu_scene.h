@@ -3,13 +3,14 @@
 
 #include <array>
 #include <map>
+#include <span>
 #include <vector>
 
 #include <ssphh/gl/draw.h>
 #include <ssphh/gl/texture.h>
-#include <ssphh/gl/vertex_array.h>
 #include <ssphh/scene/query.h>
 
+#include "gpu_meshes.h"
 #include "gpu_types.h"
 #include "upload_count.h"
 
@@ -19,6 +20,7 @@ namespace ssphh::realtime {
 struct DrawItem {
   int instance, material;
   int surface_class;
+  std::size_t arrays;  ///< of its mesh
   int index_count, base_vertex;
   std::size_t first_index;
   scene::Bounds local, world;
@@ -32,9 +34,10 @@ struct DrawItem {
 
 class GpuScene {
  public:
-  /// `anisotropy`: samples of a texture at a slant at most.
-  GpuScene(const scene::Scene& scene, const std::vector<mat4>& world, float anisotropy,
-           FrameCounters& counters);
+  /// `engines`: meshes that are in OpenGL's memory already. `anisotropy`: samples of a texture at a slant at
+  /// most.
+  GpuScene(const scene::Scene& scene, std::span<const MeshBuffers> engines, const std::vector<mat4>& world,
+           float anisotropy, FrameCounters& counters);
 
   /// Poses instances; adds the boxes of what moved, before and after.
   void pose(const std::vector<mat4>& world, std::vector<scene::Bounds>& moved, FrameCounters& counters);
@@ -49,7 +52,7 @@ class GpuScene {
   bool any_full() const { return any_full_; }
   bool any_glass() const { return any_glass_; }
 
-  /// Binds buffers; then draw() what is wanted, in the order of items() for few changes of state. `program`
+  /// Then draw() what is wanted, in the order of items() for few changes of state. `program`
   /// is the one in use.
   void begin(bool positions_only) const;
   void draw(const DrawItem& item, bool textures, FrameCounters& counters) const;
@@ -79,14 +82,16 @@ class GpuScene {
   std::vector<gl::Texture> textures_;
   std::vector<gl::Sampler> samplers_;
   gl::Texture white_;
-  gl::Buffer positions_, vertices_, indices_;
+  GpuMeshes meshes_;
   gl::Buffer material_buffer_, instance_buffer_;
-  gl::VertexArray all_, position_only_;
   scene::Bounds bounds_;
   float anisotropy_;
   std::size_t bytes_ = 0;
   bool any_full_ = false, any_glass_ = false;
-  mutable int bound_material_, bound_instance_;  ///< since begin(); below 0: none
+  // Since begin(); below 0: none
+  mutable int bound_material_, bound_instance_;
+  mutable const MeshArrays* bound_arrays_;
+  mutable bool positions_only_;
 };
 
 }  // namespace ssphh::realtime

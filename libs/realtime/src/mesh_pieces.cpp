@@ -8,6 +8,14 @@ namespace {
 
 constexpr std::size_t most_triangles = 1500;
 
+MeshPiece piece_of(const scene::Mesh& mesh, std::span<const uvec3> triangles, std::size_t first_index) {
+  MeshPiece piece{first_index, static_cast<int>(3 * triangles.size()), {}};
+  for (const uvec3& t : triangles) {
+    for (int c = 0; c < 3; ++c) piece.bounds.add(mesh.positions[t[c]]);
+  }
+  return piece;
+}
+
 struct Splitter {
   const scene::Mesh& mesh;
   std::vector<unsigned>& indices;
@@ -33,14 +41,8 @@ struct Splitter {
 
   void emit(std::span<const uvec3> triangles) {
     if (triangles.empty()) return;
-    MeshPiece piece{indices.size(), static_cast<int>(3 * triangles.size()), {}};
-    for (const uvec3& t : triangles) {
-      for (int c = 0; c < 3; ++c) {
-        indices.push_back(t[c]);
-        piece.bounds.add(mesh.positions[t[c]]);
-      }
-    }
-    pieces.push_back(piece);
+    pieces.push_back(piece_of(mesh, triangles, indices.size()));
+    for (const uvec3& t : triangles) indices.insert(indices.end(), {t.x, t.y, t.z});
   }
 };
 
@@ -50,6 +52,16 @@ std::vector<MeshPiece> split_mesh(const scene::Mesh& mesh, std::vector<unsigned>
   std::vector<uvec3> triangles = mesh.triangles;
   std::vector<MeshPiece> pieces;
   Splitter{mesh, indices, pieces}.split(triangles);
+  return pieces;
+}
+
+std::vector<MeshPiece> pieces_in_order(const scene::Mesh& mesh, std::size_t first_index) {
+  std::vector<MeshPiece> pieces;
+  const std::span<const uvec3> triangles(mesh.triangles);
+  for (std::size_t t = 0; t < triangles.size(); t += most_triangles) {
+    const std::size_t count = std::min(most_triangles, triangles.size() - t);
+    pieces.push_back(piece_of(mesh, triangles.subspan(t, count), first_index + 3 * t));
+  }
   return pieces;
 }
 

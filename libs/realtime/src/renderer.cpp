@@ -42,7 +42,7 @@ scene::Scene pose_only(const scene::Scene& scene) {
 }  // namespace
 
 Renderer::Data::Data(gl::Context& context_in, const scene::Scene& scene_in, const RendererParams& params_in,
-                     float time_in)
+                     float time_in, std::span<const MeshBuffers> engines)
     : context(context_in),
       params(params_in),
       posed(pose_only(scene_in)),
@@ -51,7 +51,7 @@ Renderer::Data::Data(gl::Context& context_in, const scene::Scene& scene_in, cons
       files(shader_table(), params_in.shader_directory),
       shaders(files),
       shaders_from(files.newest_change()),
-      scene(scene_in, world, context_in.info().software ? 1.0f : 8.0f, counters),
+      scene(scene_in, engines, world, context_in.info().software ? 1.0f : 8.0f, counters),
       lights(scene_in, time_in, world, scene.bounds(), params_in),
       albedo(make_albedo_table()),
       sky(environment_map(lights.environment())),
@@ -110,12 +110,12 @@ void Renderer::Data::choose_direct(const FrameSettings& settings) {
   probes.use_light_of_moving(now.by_records);
 }
 
-Renderer::Renderer(gl::Context& context, const scene::Scene& scene, const RendererParams& params,
-                   float time) {
+Renderer::Renderer(gl::Context& context, const scene::Scene& scene, const RendererParams& params, float time,
+                   std::span<const MeshBuffers> engines) {
   scene::check_indices(scene);
   require(std::isfinite(time), "time", "it must be a finite number of seconds");
   context.forget_errors();
-  data_ = std::make_unique<Data>(context, scene, params, time);
+  data_ = std::make_unique<Data>(context, scene, params, time, engines);
   context.throw_on_error("uploading the scene");
 }
 Renderer::~Renderer() = default;

@@ -28,7 +28,8 @@ inline constexpr const char* pass_names[pass_count] = {"shadows", "geometry", "d
                                                        "seen",    "glass",    "resolve", "display"};
 
 struct Renderer::Data {
-  Data(gl::Context& context, const scene::Scene& scene, const RendererParams& params, float time);
+  Data(gl::Context& context, const scene::Scene& scene, const RendererParams& params, float time,
+       std::span<const MeshBuffers> engines);
 
   void pose(float time);
   /// What is infinitely far away, after lights.set() has it.

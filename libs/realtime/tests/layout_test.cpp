@@ -128,5 +128,23 @@ TEST(MeshPieces, AreSmallAndLieApart) {
   EXPECT_TRUE(split_mesh(scene::Mesh(), few).empty());
 }
 
+TEST(MeshPieces, InAnEnginesOrderFollowEachOther) {
+  const scene::Mesh mesh = scene::make_sphere(1, 128, 65);  // 16384 triangles
+  const std::vector<MeshPiece> pieces = pieces_in_order(mesh, 7);
+  ASSERT_EQ(pieces.size(), 11u);
+  std::size_t next = 7;
+  for (const MeshPiece& piece : pieces) {
+    EXPECT_EQ(piece.first_index, next);
+    for (int i = 0; i < piece.index_count; ++i, ++next) {
+      const vec3& p = mesh.positions[mesh.triangles[(next - 7) / 3][static_cast<int>((next - 7) % 3)]];
+      EXPECT_TRUE(glm::all(glm::lessThanEqual(piece.bounds.min, p)) &&
+                  glm::all(glm::lessThanEqual(p, piece.bounds.max)));
+    }
+  }
+  EXPECT_EQ(next, 7 + 3 * mesh.triangles.size());
+  EXPECT_EQ(pieces.back().index_count, 3 * 1384) << "what is left of 1500 each";
+  EXPECT_TRUE(pieces_in_order(scene::Mesh(), 0).empty());
+}
+
 }  // namespace
 }  // namespace ssphh::realtime

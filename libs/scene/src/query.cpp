@@ -57,7 +57,10 @@ std::uint64_t triangle_count(const Scene& scene) {
 }
 
 int instance_material(const Scene& scene, const Instance& instance) {
-  return instance.material >= 0 ? instance.material : scene.meshes[instance.mesh].material;
+  if (instance.material >= 0) return instance.material;
+  require(instance.mesh >= 0 && instance.mesh < static_cast<int>(scene.meshes.size()), "instance",
+          "the scene has no such mesh");
+  return scene.meshes[instance.mesh].material;
 }
 
 std::string light_group(const Light& light) {
@@ -73,6 +76,7 @@ std::string light_group(const Environment& environment) {
 std::string light_group(const Scene& scene, const Instance& instance) {
   if (!instance.light_group.empty()) return instance.light_group;
   if (instance.node < 0) return "emitter";
+  require(instance.node < static_cast<int>(scene.nodes.size()), "instance", "the scene has no such node");
   const std::string& name = scene.nodes[instance.node].name;
   return name.empty() ? "emitter" : name;
 }

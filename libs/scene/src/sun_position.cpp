@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/math.h>
+#include <ssphh/core/require.h>
 #include <ssphh/scene/calendar.h>
 #include <ssphh/scene/sun_position.h>
 
@@ -63,6 +64,7 @@ double refraction_at(double elevation) {
 }  // namespace
 
 int days_of_month(int year, int month) {
+  require(month >= 1 && month <= 12, "month", "it must be 1 to 12");
   constexpr int days[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
   const bool leap = (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
   return days[month - 1] + (month == 2 && leap ? 1 : 0);

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/scene/thing_alone.h>
 
@@ -56,6 +57,7 @@ int find_node(const Scene& scene, const std::string& name) {
 
 Scene thing_alone(Scene scene, int node) {
   check_indices(scene);
+  require(node >= 0 && node < static_cast<int>(scene.nodes.size()), "thing", "the scene has no such node");
   const std::vector<bool> belongs = below(scene, node);
   const auto is_other = [&](int at) { return at < 0 || !belongs[at]; };
   std::erase_if(scene.instances, [&](const Instance& instance) { return is_other(instance.node); });

@@ -201,6 +201,7 @@ BounceReport BounceOperator::solve(std::span<const Irradiance4> direct,
   Data& d = *data_;
   BounceReport report;
   report.edges = d.edges;
+  require(direct.size() == d.network.patch_count(), "bounce", "there is not the direct light of each patch");
   require(!warm || (reflected.size() == d.network.gbuffer().positions.size() && d.params.applications == 0),
           "bounce", "it can only begin with the light of all probes, and iterate as long as needed");
   std::vector<sh::RadianceSh>& before = d.before;

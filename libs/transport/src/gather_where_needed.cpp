@@ -234,7 +234,8 @@ std::unique_ptr<SurfaceGather> gather_where_needed(const TransportNetwork& netwo
                                                    const GatherParams& params, std::span<const float> times,
                                                    const LightOfPose& light_at, const Control& control,
                                                    const AddRecordLight& add_more) {
-  require(!times.empty(), "surface records", "there is no pose to look at");
+  require(!times.empty() && light_at != nullptr, "surface records",
+          "there is no pose to look at, or nothing tells its light");
   const auto light_in = [&](float time) {
     PosedIrradiance light = light_at(time);
     require(light.reflected.size() == network.surfel_count(), "surface records",

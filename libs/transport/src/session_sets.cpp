@@ -108,6 +108,11 @@ probes::ProbeSet lookup_set(const std::vector<scene::ProbePlace>& places,
 
 void store_groups(probes::ProbeSet& set, std::vector<std::vector<sh::RadianceSh>> reflected,
                   std::vector<std::vector<sh::RadianceSh>> emitted) {
+  for (const auto* light : {&reflected, &emitted})
+    require(light->size() == set.light_groups.size() &&
+                std::ranges::all_of(
+                    *light, [&](const auto& of_probes) { return of_probes.size() == set.probes.size(); }),
+            "light groups", "there is not the light of each group at each probe");
   for (std::size_t i = 0; i < set.probes.size(); ++i) {
     probes::Probe& probe = set.probes[i];
     probe.groups.clear();

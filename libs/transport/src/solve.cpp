@@ -54,6 +54,7 @@ void bounce_once(const LinkRows& links, std::span<const Irradiance4> radiosity, 
 }
 
 Contraction contraction(const LinkRows& links, std::span<const vec3> albedo, int steps) {
+  require(albedo.size() == links.patch_count(), "surfels", "there is not the albedo of each patch");
   const auto apply = [&](std::span<const double> x, std::span<double> y) {
     for (std::size_t i = 0; i < y.size(); ++i) {
       y[i] = 0;

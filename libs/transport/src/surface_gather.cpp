@@ -51,7 +51,8 @@ SurfaceGather::SurfaceGather(const TransportNetwork& network, std::vector<rays::
 }
 
 void SurfaceGather::append(SurfaceGather&& other) {
-  require(other.network_ == network_, "surface gather", "the other is of another network");
+  require(other.network_ == network_ && &other != this, "surface gather",
+          "it must be another gather of the same network");
   if (points_.size() + other.points_.size() > most_records)
     throw Error("surface records", fmt::format("{} points, at most {} can be kept",
                                                points_.size() + other.points_.size(), most_records));

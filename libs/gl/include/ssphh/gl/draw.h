@@ -28,12 +28,17 @@ struct DrawState {
 /// Sets all of it, also what somebody else may have left behind.
 void apply(const DrawState& state);
 /// Sets what every pass of this project takes for granted: depth range 0..1, no sRGB conversion on write, and
-/// nothing that discards, offsets or masks what is drawn.
+/// nothing that discards, offsets, masks or cuts what is drawn.
 void apply_conventions();
 
+/// How a corner of a triangle names its vertex.
+enum class Index { u8, u16, u32 };
+/// Bytes of one.
+std::size_t size_of(Index type);
+
 void draw_triangles(int vertex_count);
-/// 32-bit indices [first_index, first_index + count).
-void draw_indexed(int count, std::size_t first_index, int base_vertex);
+/// Indices [first_index, first_index + count) of the bound vertex array.
+void draw_indexed(int count, std::size_t first_index, int base_vertex, Index type = Index::u32);
 /// Runs the program in use, a compute shader, on as many groups as the buffer's first three integers say.
 void dispatch(const Buffer& groups);
 /// What shaders wrote into buffers and images is there for what follows, and the other way round.

@@ -15,6 +15,7 @@ struct Rgbm {
 /// scale where that is more. Throws Error for an image that is not whole or has other than 3 channels, and
 /// for values that are not finite.
 Rgbm encode_rgbm(const image::Image& linear);
+/// Throws Error for a texel that there is not.
 vec3 decode_rgbm(const Rgbm& rgbm, int x, int y);
 
 }  // namespace ssphh::lightmap

@@ -16,7 +16,8 @@ struct Packing {
 
 /// Places rectangles without overlap in a strip of that width and at most that height, each as low as the
 /// ones before it let it lie, the highest first (bottom-left skyline: Jylänki, A Thousand Ways to Pack the
-/// Bin, 2010). None where they do not fit. Sizes are over 0.
+/// Bin, 2010). None where they do not fit. Throws Error for
+/// a size of 0 or less.
 std::optional<Packing> pack(std::span<const glm::ivec2> sizes, int width, int height);
 
 }  // namespace ssphh::lightmap

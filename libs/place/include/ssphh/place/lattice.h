@@ -29,6 +29,7 @@ inline vec3 spread_in_cube(int i) {
 /// Number of places that a lattice of this spacing has, about; infinite where it overflows.
 double lattice_places(const scene::Bounds& box, float spacing);
 
+/// Throws Error for a spacing of 0 or less, no number, or of more than 2^28 places.
 Lattice make_lattice(const scene::Bounds& box, float spacing, const vec3& offset);
 
 /// Centred, and at eight offsets that fill the cell evenly. Each counts its valid places, less those nearer

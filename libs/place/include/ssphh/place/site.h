@@ -28,7 +28,7 @@ struct Site {
   vec3 nearest_back_hit{0};  ///< of the surfaces seen from behind
 };
 
-/// Looks around from `position` in part 0 of the source.
+/// Looks around from `position` in part 0 of the source. Throws Error for rays beside 1 to fan_size.
 Site look_around(const rays::TransportSource& source, const vec3& position, int rays = fan_size);
 
 /// Looks around from many places, on all threads.

@@ -25,10 +25,11 @@ struct CandidateGrid {
 };
 
 /// How far from each probe the points may be that choose among it [m]: the farthest corner of a cell that
-/// lists it.
+/// lists it. Throws Error for a grid of other probes.
 std::vector<float> probe_reach(const CandidateGrid& grid, std::span<const vec3> probes);
 
-/// Cells of a third of the probes' spacing or larger, at most `most_cells`, over `bounds`.
+/// Cells of a third of the probes' spacing or larger, at most `most_cells`, over `bounds`; of a spacing
+/// that is no number over 0 one cell.
 CandidateGrid make_candidate_grid(std::span<const vec3> probes, const scene::Bounds& bounds, float spacing,
                                   std::size_t most_cells = 1 << 17);
 

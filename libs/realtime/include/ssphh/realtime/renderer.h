@@ -21,6 +21,7 @@
 #include <ssphh/probes/probe_set.h>
 #include <ssphh/realtime/frame_stats.h>
 #include <ssphh/realtime/gbuffer.h>
+#include <ssphh/realtime/mesh_buffers.h>
 #include <ssphh/realtime/settings.h>
 #include <ssphh/scene/lighting_state.h>
 #include <ssphh/scene/query.h>
@@ -52,10 +53,12 @@ struct RendererParams {
 
 class Renderer {
  public:
-  /// Uploads the scene and keeps a copy of what it needs of it; the scene may go. Earlier errors of OpenGL
-  /// are the host's. Throws Error when the driver refuses something, or for a shader that does not compile.
-  Renderer(gl::Context& context, const scene::Scene& scene, const RendererParams& params = {},
-           float time = 0);
+  /// Uploads the scene, but the meshes that the engine has in buffers of its own, and keeps a copy of what it
+  /// needs of it; the scene may go. Those buffers must stay as they are as long as the renderer draws.
+  /// Earlier errors of OpenGL are the host's. Throws Error when the driver refuses something, for a shader
+  /// that does not compile, and for buffers that do not hold their mesh (MeshBuffers), as far as sizes tell.
+  Renderer(gl::Context& context, const scene::Scene& scene, const RendererParams& params = {}, float time = 0,
+           std::span<const MeshBuffers> engines = {});
   ~Renderer();
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;

@@ -13,7 +13,7 @@ int find_node(const Scene& scene, const std::string& name);
 
 /// The scene with what stands at the node or below it, meshes and lamps, and nothing else: no environment, no
 /// suns, no cameras, no SPHLs as probes. Nodes and animations stay, so that everything stands and moves as
-/// before.
+/// before. Throws Error for a node that there is not.
 Scene thing_alone(Scene scene, int node);
 
 }  // namespace ssphh::scene
