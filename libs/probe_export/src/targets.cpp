@@ -26,6 +26,13 @@ constexpr std::array table = {
            "a grid of irradiance along six axes, each asked for before the surface there that faces it",
            "all between the axes, fitted weights, surface records; the engine hides nothing itself",
            ".vxgi.ktx2", 2, true, false, write_bevy},
+    Target{"babylon",
+           "Babylon.js SphericalHarmonics of moving objects: a JSON header and a grid of 32-bit floats",
+           "a grid of irradiance of degree 2, resampled by this project's lookup, cells laid along walls",
+           "how light changes within an object, whose light is that at one place; bands above 2, fitted "
+           "weights, "
+           "surface records; the engine hides nothing itself",
+           ".json", 2, true, false, write_babylon},
 };
 
 }  // namespace
@@ -46,6 +53,10 @@ const Target& find_target(std::string_view name) {
 std::vector<std::byte> bytes_of(std::string_view text) {
   const auto* begin = reinterpret_cast<const std::byte*>(text.data());
   return {begin, begin + text.size()};
+}
+
+json::Value json_triple(const vec3& v) {
+  return json::Value::array({v.x, v.y, v.z});
 }
 
 void write_half(ByteWriter& out, float value, const char* what) {
