@@ -50,7 +50,8 @@ TEST_F(ProbeExportTool, WritesTheFilesThatItNamesAndTellsWhatIsLost) {
                                                                      {"three", {".json", ".bin"}},
                                                                      {"godot", {".tres"}},
                                                                      {"bevy", {".vxgi.ktx2", ".json"}},
-                                                                     {"babylon", {".json", ".bin"}}}) {
+                                                                     {"babylon", {".json", ".bin"}},
+                                                                     {"playcanvas", {".json", ".bin"}}}) {
     const json::Value said = json_here(to(target));
     ASSERT_EQ(said["files"].size(), endings.size()) << target;
     std::uintmax_t bytes = 0;
@@ -78,7 +79,7 @@ TEST_F(ProbeExportTool, GroupsApart) {
 
 TEST_F(ProbeExportTool, ListNeedsNothing) {
   const json::Value list = json_here({"probe", "export", "--list"});
-  EXPECT_EQ(list["targets"].size(), 5u);
+  EXPECT_EQ(list["targets"].size(), 6u);
   EXPECT_THAT(test::text_here({"probe", "export", "--list"}),
               AllOf(HasSubstr("three: "), HasSubstr("  loses ")));
 }

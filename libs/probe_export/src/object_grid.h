@@ -9,7 +9,7 @@ namespace ssphh::probe_export {
 /// One of the nine colours that an engine lights an object by: a factor times a coefficient of radiance.
 struct ObjectColor {
   int coefficient;
-  double factor;
+  double factor = 0;
 };
 
 /// A grid of nine colours a point as 32-bit floats, and a header with its place. `engine` names the format.

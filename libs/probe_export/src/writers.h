@@ -9,6 +9,7 @@ Exported write_babylon(const ExportSource& source, const std::string& name, cons
 Exported write_csv(const ExportSource& source, const std::string& name, const Control& control);
 Exported write_bevy(const ExportSource& source, const std::string& name, const Control& control);
 Exported write_godot(const ExportSource& source, const std::string& name, const Control& control);
+Exported write_playcanvas(const ExportSource& source, const std::string& name, const Control& control);
 Exported write_three(const ExportSource& source, const std::string& name, const Control& control);
 
 std::vector<std::byte> bytes_of(std::string_view text);

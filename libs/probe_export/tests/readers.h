@@ -144,4 +144,11 @@ inline vec3 babylon_diffuse(const std::array<vec3, 9>& sh, const vec3& n) {
          0.546274f * (n.x * n.x - n.y * n.y) * sh[8];
 }
 
+/// PlayCanvas 2.23, the chunk ambientPS: likewise.
+inline vec3 playcanvas_diffuse(const std::array<vec3, 9>& sh, const vec3& n) {
+  const vec3 color = sh[0] + sh[1] * n.x + sh[2] * n.y + sh[3] * n.z + sh[4] * n.x * n.z + sh[5] * n.z * n.y +
+                     sh[6] * n.y * n.x + sh[7] * (3.0f * n.z * n.z - 1.0f) + sh[8] * (n.x * n.x - n.y * n.y);
+  return glm::max(color, vec3(0));
+}
+
 }  // namespace ssphh::probe_export

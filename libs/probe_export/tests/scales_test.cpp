@@ -89,6 +89,16 @@ TEST(Scales, BabylonReadsIrradianceOverPi) {
   }
 }
 
+TEST(Scales, PlayCanvasReadsIrradianceOverPi) {
+  for (const bool linear : {false, true}) {
+    const ObjectGridReader reader(exported("playcanvas", field_set(linear)), "ssphh-playcanvas-grid");
+    for_places([&](const vec3& at, const vec3& n) {
+      test::expect_near(playcanvas_diffuse(reader.colors(at), n), field_irradiance(at, n, linear) / pi,
+                        linear ? for_ridge / pi : six_digits);
+    });
+  }
+}
+
 TEST(Scales, CsvHoldsEveryProbesRadianceOfAllBands) {
   const probes::ProbeSet set = field_set(true, 3);
   const Exported file = exported("csv", set);
@@ -118,7 +128,7 @@ TEST(Scales, AGroupAloneIsItsShareOfTheSum) {
 }
 
 TEST(Scales, SameBitsWhateverTheNumberOfThreads) {
-  for (const char* target : {"three", "bevy", "babylon"}) {
+  for (const char* target : {"three", "bevy", "babylon", "playcanvas"}) {
     const Exported one = [&] {
       const test::Threads limit(1);
       return exported(target, field_set(true));
