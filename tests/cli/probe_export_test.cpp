@@ -49,7 +49,9 @@ TEST_F(ProbeExportTool, WritesTheFilesThatItNamesAndTellsWhatIsLost) {
        std::vector<std::pair<std::string, std::vector<std::string>>>{{"csv", {".csv"}},
                                                                      {"three", {".json", ".bin"}},
                                                                      {"godot", {".tres"}},
-                                                                     {"bevy", {".vxgi.ktx2", ".json"}}}) {
+                                                                     {"bevy", {".vxgi.ktx2", ".json"}},
+                                                                     {"babylon", {".json", ".bin"}},
+                                                                     {"playcanvas", {".json", ".bin"}}}) {
     const json::Value said = json_here(to(target));
     ASSERT_EQ(said["files"].size(), endings.size()) << target;
     std::uintmax_t bytes = 0;
@@ -77,7 +79,7 @@ TEST_F(ProbeExportTool, GroupsApart) {
 
 TEST_F(ProbeExportTool, ListNeedsNothing) {
   const json::Value list = json_here({"probe", "export", "--list"});
-  EXPECT_EQ(list["targets"].size(), 4u);
+  EXPECT_EQ(list["targets"].size(), 6u);
   EXPECT_THAT(test::text_here({"probe", "export", "--list"}),
               AllOf(HasSubstr("three: "), HasSubstr("  loses ")));
 }

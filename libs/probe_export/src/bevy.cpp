@@ -94,12 +94,9 @@ Exported write_bevy(const ExportSource& source, const std::string& name, const C
     }
   }
   const vec3 middle = 0.5f * (shape.low + shape.high()), extent = shape.high() - shape.low;
-  const json::Value place = {{"format", "ssphh-bevy-volume"},
-                             {"version", 1},
-                             {"texture", name + ".vxgi.ktx2"},
-                             {"translation", json::Value::array({middle.x, middle.y, middle.z})},
-                             {"scale", json::Value::array({extent.x, extent.y, extent.z})},
-                             {"intensity", 1.0}};
+  const json::Value place = {{"format", "ssphh-bevy-volume"},  {"version", 1},
+                             {"texture", name + ".vxgi.ktx2"}, {"translation", json_triple(middle)},
+                             {"scale", json_triple(extent)},   {"intensity", 1.0}};
   return {
       {{"", image::ktx2_of_halves(atlas, texels.bytes())}, {".json", bytes_of(json::print(place, 2) + "\n")}},
       shape.count(),

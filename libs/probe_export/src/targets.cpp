@@ -10,6 +10,13 @@
 namespace ssphh::probe_export {
 namespace {
 
+/// Of engines that light an object by nine colours.
+constexpr std::string_view object_carries =
+    "a grid of irradiance of degree 2, resampled by this project's lookup, cells laid along walls";
+constexpr std::string_view object_loses =
+    "how light changes within an object, whose light is that at one place; bands above 2, fitted weights, "
+    "surface records; the engine hides nothing itself";
+
 constexpr std::array table = {
     Target{"csv", "one line per probe, for scripts and importers of one's own",
            "every probe: name, place, radius and the radiance it holds, all bands, summed over groups",
@@ -26,6 +33,13 @@ constexpr std::array table = {
            "a grid of irradiance along six axes, each asked for before the surface there that faces it",
            "all between the axes, fitted weights, surface records; the engine hides nothing itself",
            ".vxgi.ktx2", 2, true, false, write_bevy},
+    Target{"babylon",
+           "Babylon.js SphericalHarmonics of moving objects: a JSON header and a grid of 32-bit floats",
+           object_carries, object_loses, ".json", 2, true, false, write_babylon},
+    Target{
+        "playcanvas",
+        "PlayCanvas StandardMaterial.ambientSH of moving objects: a JSON header and a grid of 32-bit floats",
+        object_carries, object_loses, ".json", 2, true, false, write_playcanvas},
 };
 
 }  // namespace
@@ -46,6 +60,10 @@ const Target& find_target(std::string_view name) {
 std::vector<std::byte> bytes_of(std::string_view text) {
   const auto* begin = reinterpret_cast<const std::byte*>(text.data());
   return {begin, begin + text.size()};
+}
+
+json::Value json_triple(const vec3& v) {
+  return json::Value::array({v.x, v.y, v.z});
 }
 
 void write_half(ByteWriter& out, float value, const char* what) {

@@ -7,10 +7,6 @@
 namespace ssphh::probe_export {
 namespace {
 
-json::Value triple(const vec3& v) {
-  return json::Value::array({v.x, v.y, v.z});
-}
-
 /// Seven sub-volumes along z of four of the 27 numbers each, c0 r g b, c1 r g b ...; each with a copy of its
 /// outermost slices at either end, so that filtering does not mix it with the next.
 std::vector<std::byte> texture_of(const LightGrid& grid) {
@@ -42,8 +38,8 @@ Exported write_three(const ExportSource& source, const std::string& name, const 
   const int depth = 7 * (size.z + 2);
   const json::Value header = {{"format", "ssphh-three-grid"},
                               {"version", 1},
-                              {"min", triple(grid.shape.low)},
-                              {"max", triple(grid.shape.high())},
+                              {"min", json_triple(grid.shape.low)},
+                              {"max", json_triple(grid.shape.high())},
                               {"resolution", json::Value::array({size.x, size.y, size.z})},
                               {"texture", json::Value{{"file", name + ".bin"},
                                                       {"type", "half"},

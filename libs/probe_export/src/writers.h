@@ -1,15 +1,19 @@
 #pragma once
 
+#include <ssphh/core/json.h>
 #include <ssphh/probe_export/target.h>
 
 namespace ssphh::probe_export {
 
+Exported write_babylon(const ExportSource& source, const std::string& name, const Control& control);
 Exported write_csv(const ExportSource& source, const std::string& name, const Control& control);
 Exported write_bevy(const ExportSource& source, const std::string& name, const Control& control);
 Exported write_godot(const ExportSource& source, const std::string& name, const Control& control);
+Exported write_playcanvas(const ExportSource& source, const std::string& name, const Control& control);
 Exported write_three(const ExportSource& source, const std::string& name, const Control& control);
 
 std::vector<std::byte> bytes_of(std::string_view text);
+json::Value json_triple(const vec3& v);
 
 /// The set's light on the grid that its parameters ask for.
 LightGrid make_grid(const ExportSource& source, const Control& control);

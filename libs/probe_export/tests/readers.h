@@ -1,6 +1,8 @@
 #pragma once
 /// What engines do with the files, written from their shaders' descriptions.
 
+#include <array>
+
 #include <gtest/gtest.h>
 
 #include <ssphh/core/json.h>
@@ -92,5 +94,61 @@ class BevyReader {
   vec3 translation_, scale_;
   Texture3 texture_;
 };
+
+/// What docs/engines.md asks a page to do for an object: nine colours between the eight points around it.
+class ObjectGridReader {
+ public:
+  ObjectGridReader(const Exported& exported, const std::string& format) {
+    const json::Value header = json::parse(text_of(exported.files.at(0)), "header");
+    EXPECT_EQ(header["format"].string(), format);
+    EXPECT_EQ(header["light"]["file"].string(), "grid.bin");
+    EXPECT_EQ(header["light"]["type"].string(), "float32");
+    EXPECT_EQ(header["light"]["numbers"].integer(), 27);
+    low_ = triple(header["min"]), high_ = triple(header["max"]), size_ = triple(header["resolution"]);
+    const std::vector<std::byte>& data = exported.files.at(1).data;
+    numbers_.resize(data.size() / sizeof(float));
+    std::memcpy(numbers_.data(), data.data(), data.size());
+    EXPECT_EQ(data.size(), static_cast<std::size_t>(4 * 27 * size_.x * size_.y * size_.z));
+  }
+
+  vec3 cell() const { return (high_ - low_) / vec3(size_); }
+  std::array<vec3, 9> colors(const vec3& at) const {
+    const vec3 place = glm::clamp((at - low_) / cell() - 0.5f, vec3(0), vec3(size_ - 1));
+    const vec3 low = glm::floor(place), t = place - low;
+    std::array<vec3, 9> sum = {};
+    for (int k = 0; k < 8; ++k) {
+      const glm::ivec3 step(k & 1, k >> 1 & 1, k >> 2);
+      const glm::ivec3 point = glm::min(glm::ivec3(low) + step, size_ - 1);
+      const vec3 share = glm::mix(1.0f - t, t, glm::bvec3(step));
+      const int index = (point.z * size_.y + point.y) * size_.x + point.x;
+      for (std::size_t c = 0; c < 9; ++c) {
+        const float* color = numbers_.data() + 27 * static_cast<std::size_t>(index) + 3 * c;
+        sum[c] += share.x * share.y * share.z * vec3(color[0], color[1], color[2]);
+      }
+    }
+    return sum;
+  }
+
+ private:
+  vec3 low_, high_;
+  glm::ivec3 size_;
+  std::vector<float> numbers_;
+};
+
+/// Babylon.js 9.35, SphericalHarmonics.preScaleForRendering and computeEnvironmentIrradiance: what a surface
+/// multiplies with its albedo.
+inline vec3 babylon_diffuse(const std::array<vec3, 9>& sh, const vec3& n) {
+  return 0.282095f * sh[0] - 0.488603f * n.y * sh[1] + 0.488603f * n.z * sh[2] - 0.488603f * n.x * sh[3] +
+         1.092548f * n.x * n.y * sh[4] - 1.092548f * n.y * n.z * sh[5] +
+         0.315392f * (3 * n.z * n.z - 1) * sh[6] - 1.092548f * n.z * n.x * sh[7] +
+         0.546274f * (n.x * n.x - n.y * n.y) * sh[8];
+}
+
+/// PlayCanvas 2.23, the chunk ambientPS: likewise.
+inline vec3 playcanvas_diffuse(const std::array<vec3, 9>& sh, const vec3& n) {
+  const vec3 color = sh[0] + sh[1] * n.x + sh[2] * n.y + sh[3] * n.z + sh[4] * n.x * n.z + sh[5] * n.z * n.y +
+                     sh[6] * n.y * n.x + sh[7] * (3.0f * n.z * n.z - 1.0f) + sh[8] * (n.x * n.x - n.y * n.y);
+  return glm::max(color, vec3(0));
+}
 
 }  // namespace ssphh::probe_export

@@ -21,6 +21,8 @@ Exported exported(const char* target, const probes::ProbeSet& set, float spacing
 
 /// Moving least squares keep slopes a little flat (mls_ridge, 5 %), half floats have 11 bits.
 constexpr float for_half_floats = 0.03f, for_ridge = 0.25f;
+/// Of the engines' constants.
+constexpr float six_digits = 1e-4f;
 
 template <class Check>
 void for_places(const Check& check) {
@@ -77,6 +79,26 @@ TEST(Scales, BevyReadsIrradianceOverPiAlongTheAxes) {
   }
 }
 
+TEST(Scales, BabylonReadsIrradianceOverPi) {
+  for (const bool linear : {false, true}) {
+    const ObjectGridReader reader(exported("babylon", field_set(linear)), "ssphh-babylon-grid");
+    for_places([&](const vec3& at, const vec3& n) {
+      test::expect_near(babylon_diffuse(reader.colors(at), n), field_irradiance(at, n, linear) / pi,
+                        linear ? for_ridge / pi : six_digits);
+    });
+  }
+}
+
+TEST(Scales, PlayCanvasReadsIrradianceOverPi) {
+  for (const bool linear : {false, true}) {
+    const ObjectGridReader reader(exported("playcanvas", field_set(linear)), "ssphh-playcanvas-grid");
+    for_places([&](const vec3& at, const vec3& n) {
+      test::expect_near(playcanvas_diffuse(reader.colors(at), n), field_irradiance(at, n, linear) / pi,
+                        linear ? for_ridge / pi : six_digits);
+    });
+  }
+}
+
 TEST(Scales, CsvHoldsEveryProbesRadianceOfAllBands) {
   const probes::ProbeSet set = field_set(true, 3);
   const Exported file = exported("csv", set);
@@ -106,7 +128,7 @@ TEST(Scales, AGroupAloneIsItsShareOfTheSum) {
 }
 
 TEST(Scales, SameBitsWhateverTheNumberOfThreads) {
-  for (const char* target : {"three", "bevy"}) {
+  for (const char* target : {"three", "bevy", "babylon", "playcanvas"}) {
     const Exported one = [&] {
       const test::Threads limit(1);
       return exported(target, field_set(true));

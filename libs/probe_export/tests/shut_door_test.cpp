@@ -114,6 +114,27 @@ TEST_P(ShutDoor, LittleLightBeyondItInBevy) {
       GetParam());
 }
 
+/// Objects are lit by the light at their place, which is half a cell and more before the wall.
+TEST_P(ShutDoor, NextToNoLightBeyondItOnObjectsInBabylon) {
+  const ObjectGridReader reader(exported("babylon"), "ssphh-babylon-grid");
+  float leaked = 0, least = 1;
+  for (const float side : {-1.0f, 1.0f}) {
+    for (int i = 0; i < 1000; ++i) {
+      const vec3 t = (vec3(i % 10, i / 10 % 10, i / 100) + 0.5f) / 10.0f;
+      const vec3 at(side * glm::mix(half_wall + 0.04f + 0.5f * reader.cell().x, far, t.x), height * t.y,
+                    depth * (2 * t.z - 1));
+      const std::array<vec3, 9> colors = reader.colors(at);
+      for (const vec3 n : {vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 1, 0), vec3(0, -1, 0)}) {
+        const float share = max_component(babylon_diffuse(colors, n) / lit);
+        if (side > 0) leaked = std::max(leaked, share);
+        if (side < 0) least = std::min(least, share);
+      }
+    }
+  }
+  EXPECT_LT(leaked, 1e-3f);
+  EXPECT_GT(least, 0.995f);
+}
+
 INSTANTIATE_TEST_SUITE_P(Cells, ShutDoor, testing::Values(0.5f, 0.37f, 0.21f));
 
 }  // namespace
