@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <ssphh/core/require.h>
+#include <ssphh/scene/query.h>
 
 namespace ssphh::lightmap {
 
