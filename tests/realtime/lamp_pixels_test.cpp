@@ -106,6 +106,34 @@ TEST_F(LampPixels, OfASunThatShinesOnAPlainAreAsExactBeforeIt) {
   EXPECT_TRUE(picture_is(draw(renderer, scene), bounds_of(truth)));
 }
 
+TEST_F(LampPixels, OfASmallGlowingBallAreTheSameBeforeAWidePlain) {
+  // Its points stand off it by what the shadow maps of the scene need, and by no more than suits the ball.
+  const auto drawn = [&](bool plain) {
+    scene::Scene scene = stage(matte({0.9f, 0.3f, 0.5f}));
+    scene::Material glow = matte(vec3(0));
+    glow.emission = {50, 40, 15};
+    scene.materials.push_back(glow);
+    add_mesh(scene, scene::make_sphere(0.1f, 16, 12), static_cast<int>(scene.materials.size()) - 1,
+             {0.4f, 1.5f, 0});
+    if (plain) add_mesh(scene, scene::make_quad({-2e3f, -9, 2e3f}, {4e3f, 0, 0}, {0, 0, -4e3f}), 0);
+    realtime::Renderer renderer(gl(), scene);
+    return draw(renderer, scene);
+  };
+  const image::Image alone = drawn(false), before = drawn(true);
+  const auto mean = static_cast<float>(mean_luminance(alone));
+  int compared = 0, off = 0;
+  for (int y = 0; y < lamp_size.height; ++y) {
+    for (int x = 0; x < lamp_size.width; ++x) {
+      const float a = luminance(alone.rgb(x, y)), b = luminance(before.rgb(x, y));
+      if (!(a > 0.1f * mean)) continue;
+      ++compared, off += std::abs(b - a) > 0.05f * a;
+    }
+  }
+  EXPECT_GT(compared, 1000);
+  // What stands within the maps' near plane, here 1.4 m, casts no shadow.
+  EXPECT_LT(off, compared / 8);
+}
+
 TEST_F(LampPixels, OfASunThatRunsAlongAWallAreDarkUnderItsEaves) {
   for (const float radius : {0.0f, 0.0046f}) {
     scene::Scene scene = stage(matte({0.9f, 0.3f, 0.5f}));

@@ -17,6 +17,8 @@ namespace {
 
 constexpr int sphere_points = 8;
 constexpr float black = 0;
+/// Of a glowing mesh's points above it, in roots of its area.
+constexpr float most_lift = 0.05f;
 
 float mesh_area(const scene::Mesh& mesh, const mat4& world) {
   float area = 0;
@@ -269,8 +271,9 @@ void Lights::place(Source& source, const mat4& world) {
 void Lights::place_samples(Source& source, const mat4& world) {
   GpuEmitter& e = emitters_[source.emitter];
   const mat3 to_normal = glm::transpose(glm::inverse(mat3(world)));
-  // Off the surface, or its own triangles would stand in the way
-  const float lift = 2 * near_;
+  // Off the surface, or its own triangles would stand in the way; a small lamp of a wide scene stays where it
+  // is.
+  const float lift = std::min(2 * near_, most_lift * std::sqrt(e.more.z));
   for (std::size_t i = 0; i < source.points.size(); ++i) {
     const AreaPoint& p = source.points[i];
     const bool directed = p.normal != vec3(0);
