@@ -14,15 +14,29 @@ std::vector<StillTriangle> still_triangles(const scene::Scene& scene, float time
     if (posed && scene.nodes[instance.node].movable) continue;
     const int material = scene::instance_material(scene, instance);
     if (material >= 0 && scene.materials[material].unlit) continue;
+    const bool glass = material >= 0 && scene.materials[material].is_glass();
     const mat4 to_world = posed ? world[instance.node] : mat4(1);
     const scene::Mesh& mesh = scene.meshes[instance.mesh];
     const auto corner = [&](unsigned i) { return vec3(to_world * vec4(mesh.positions[i], 1)); };
     for (const uvec3& t : mesh.triangles) {
-      const StillTriangle now{corner(t.x), corner(t.y), corner(t.z)};
+      const StillTriangle now{corner(t.x), corner(t.y), corner(t.z), glass};
       if (glm::length(glm::cross(now.b - now.a, now.c - now.a)) > 0) out.push_back(now);
     }
   }
   return out;
+}
+
+std::optional<float> passed(const StillTriangle& t, const vec3& from, const vec3& to) {
+  const vec3 normal = glm::cross(t.b - t.a, t.c - t.a);
+  const float before = glm::dot(from - t.a, normal), after = glm::dot(to - t.a, normal);
+  if ((before > 0) == (after > 0)) return {};
+  const float share = before / (before - after);
+  const vec3 x = glm::mix(from, to, share);
+  const auto inside = [&](const vec3& a, const vec3& b) {
+    return glm::dot(glm::cross(b - a, x - a), normal) >= 0;
+  };
+  if (!inside(t.a, t.b) || !inside(t.b, t.c) || !inside(t.c, t.a)) return {};
+  return share;
 }
 
 std::optional<vec3> middle_within(const StillTriangle& t, const vec3& min, const vec3& max) {

@@ -11,7 +11,8 @@
 namespace ssphh::probes {
 
 struct StillTriangle {
-  vec3 a, b, c;  ///< world
+  vec3 a, b, c;        ///< world
+  bool glass = false;  ///< light goes through it
 };
 
 /// All triangles of instances that no animation moves, posed at `time`, unlit ones left out.
@@ -30,14 +31,17 @@ void visit_parts(const StillTriangle& whole, const vec3& min, const vec3& max, f
     if (!(std::max(l0, std::max(l1, l2)) > edge * edge)) return visit(t);
     // Halves its longest edge
     const StillTriangle r = l0 >= l1 && l0 >= l2 ? t
-                            : l1 >= l2           ? StillTriangle{t.b, t.c, t.a}
-                                                 : StillTriangle{t.c, t.a, t.b};
+                            : l1 >= l2           ? StillTriangle{t.b, t.c, t.a, t.glass}
+                                                 : StillTriangle{t.c, t.a, t.b, t.glass};
     const vec3 middle = 0.5f * (r.a + r.b);
-    self(self, {r.a, middle, r.c});
-    self(self, {middle, r.b, r.c});
+    self(self, {r.a, middle, r.c, r.glass});
+    self(self, {middle, r.b, r.c, r.glass});
   };
   visit_part(visit_part, whole);
 }
+
+/// Where the way from `from` to `to` passes a triangle, 0 to 1 of the way; none where it does not.
+std::optional<float> passed(const StillTriangle& t, const vec3& from, const vec3& to);
 
 /// The middle of what of a triangle lies in a box; none where that is nothing.
 std::optional<vec3> middle_within(const StillTriangle& t, const vec3& min, const vec3& max);

@@ -30,18 +30,22 @@ struct Layers {
   int count = 0;
 };
 
+/// Whether a sample sees a point.
+enum class Seen : std::uint8_t { no, yes, through_glass };
+
 /// What one thread needs while it makes a cell's list.
 struct Work {
   struct Candidate {
     std::uint32_t point;
     float order;                       ///< distance from the cell's middle, in the point's spacings, squared
     std::vector<std::uint32_t> asked;  ///< samples that it may light
-    std::vector<char> seen;            ///< by those; empty: by all
+    std::vector<Seen> seen;            ///< by those; empty: by all
     std::vector<std::uint32_t> outweighed;  ///< samples at which it does not count
   };
   SurfaceSamples samples;
   std::vector<Layers> taken;  ///< in each part of a cell, by axis
   std::vector<Candidate> candidates;
+  std::vector<std::uint32_t> panes;  ///< triangles of glass in the cell
   std::vector<uvec4> list;
 };
 
@@ -154,6 +158,9 @@ class Preparation {
     take_samples(cell, corner, work);
     if (work.samples.size() == 0) return {};
 
+    work.panes.clear();
+    for (std::size_t i = in_cells_.first[cell]; i < in_cells_.first[cell + 1]; ++i)
+      if (triangles_[in_cells_.triangles[i]].glass) work.panes.push_back(in_cells_.triangles[i]);
     find_candidates(corner, work);
     work.list.clear();
     for (const Work::Candidate& candidate : work.candidates) {
@@ -235,11 +242,28 @@ class Preparation {
     std::erase_if(work.candidates, [](const Work::Candidate& c) { return c.asked.empty(); });
   }
 
-  bool sees(const SurfaceSamples& samples, std::size_t i, std::uint32_t p) const {
+  Seen sees(const Work& work, std::size_t i, std::uint32_t p) const {
     const rays::SurfacePoint& point = out_.points[p];
-    const vec3 n = samples.normal(i);
-    return see_along_surface({samples.position(i), samples.side(i, point.normal) == 1 ? -n : n}, point,
-                             spacings_[p], sees_);
+    const vec3 n = work.samples.normal(i);
+    const rays::SurfacePoint at{work.samples.position(i), work.samples.side(i, point.normal) == 1 ? -n : n};
+    if (see_along_surface(at, point, spacings_[p], sees_)) return Seen::yes;
+    if (work.panes.empty()) return Seen::no;
+    const auto through = [&](const vec3& from, const vec3& to) {
+      return sees_(from, to) || sees_through(work.panes, from, to);
+    };
+    return see_along_surface(at, point, spacings_[p], through) ? Seen::through_glass : Seen::no;
+  }
+
+  /// Whether a pane of the cell, of one sheet or two, is all that stands in the way.
+  bool sees_through(const std::vector<std::uint32_t>& panes, const vec3& from, const vec3& to) const {
+    float first = 1, last = 0;
+    for (const std::uint32_t pane : panes) {
+      const std::optional<float> share = passed(triangles_[pane], from, to);
+      if (share) first = std::min(first, *share), last = std::max(last, *share);
+    }
+    const float off_sheet = 1e-3f;  // of the way
+    return first <= last && sees_(from, glm::mix(from, to, first - off_sheet)) &&
+           sees_(glm::mix(from, to, last + off_sheet), to);
   }
 
   /// Asks a few samples first, then the others where those disagree.
@@ -247,10 +271,10 @@ class Preparation {
     constexpr std::size_t few = 16;
     const std::size_t count = candidate.asked.size(), step = (count + few - 1) / few;
     std::size_t asked = 0, seen = 0;
-    candidate.seen.assign(count, 0);
+    candidate.seen.assign(count, Seen::no);
     const auto look = [&](std::size_t i) {
-      candidate.seen[i] = sees(work.samples, candidate.asked[i], candidate.point);
-      seen += candidate.seen[i] != 0, ++asked;
+      candidate.seen[i] = sees(work, candidate.asked[i], candidate.point);
+      seen += candidate.seen[i] == Seen::yes, ++asked;
     };
     for (std::size_t i = 0; i < count; i += step) look(i);
     if (seen == asked) {
@@ -264,7 +288,7 @@ class Preparation {
     work.samples.weigh(point, spacings_[candidate.point], cover_[candidate.point]);
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t sample = candidate.asked[i];
-      if (candidate.seen.empty() || candidate.seen[i])
+      if (candidate.seen.empty() || candidate.seen[i] == Seen::yes)
         work.samples.count_in(sample, work.samples.side(sample, point.normal));
     }
   }
@@ -296,10 +320,10 @@ class Preparation {
     return best;
   }
 
-  /// Parts in which every sample sees the point, sides within bodies and narrow gaps apart. A part without
-  /// samples is as those around it.
+  /// Parts in which some sample sees the point, and all others do so at least through a pane that divides the
+  /// part, sides within bodies and narrow gaps apart. A part without samples is as those around it.
   CutParts cut_so(const Work::Candidate& candidate, int cut, Work& work) const {
-    std::uint64_t known = 0, hidden = 0;
+    std::uint64_t known = 0, hidden = 0, seen = 0;
     for (const std::uint32_t sample : candidate.outweighed) hidden |= work.samples.part(sample, cut);
     known = hidden;
     const auto visit = [&](const auto& of_sample) {
@@ -307,16 +331,18 @@ class Preparation {
         const std::size_t sample = candidate.asked[i];
         const std::size_t side = work.samples.side(sample, out_.points[candidate.point].normal);
         if (!work.samples.alive(sample, side)) continue;
-        const bool sees = candidate.seen.empty() || candidate.seen[i];
-        if (sees || !is_narrow(work.samples, sample, side)) of_sample(work.samples.part(sample, cut), sees);
+        const Seen sees = candidate.seen.empty() ? Seen::yes : candidate.seen[i];
+        if (sees == Seen::yes || !is_narrow(work.samples, sample, side))
+          of_sample(work.samples.part(sample, cut), sees);
       }
     };
-    visit([&](std::uint64_t part, bool sees) {
+    visit([&](std::uint64_t part, Seen sees) {
       known |= part;
-      if (!sees) hidden |= part;
+      if (sees == Seen::no) hidden |= part;
+      if (sees == Seen::yes) seen |= part;
     });
-    CutParts out{cut, known & ~hidden};
-    visit([&](std::uint64_t part, bool sees) { out.lost += sees && (hidden & part) != 0; });
+    CutParts out{cut, seen & ~hidden};
+    visit([&](std::uint64_t part, Seen sees) { out.lost += sees == Seen::yes && (hidden & part) != 0; });
     while (out.seen != 0 && ~known != 0) {
       const std::uint64_t near_hidden = grown_parts(known & ~out.seen, cut) & ~known,
                           near_seen = grown_parts(out.seen, cut) & ~known & ~near_hidden;

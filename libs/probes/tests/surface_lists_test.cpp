@@ -100,6 +100,29 @@ TEST(SurfaceLists, TheFloorBesideABodySeesNothingThroughIt) {
   }
 }
 
+TEST(SurfaceLists, AFloorHasPointsAllTheWayToAPane) {
+  // Before the pane a floor, behind it a sill a centimetre higher: samples of both lie in one part of a cell.
+  constexpr float at = 0.035f;
+  const auto divided = [](const vec3& a, const vec3& b) { return (a.x < at) == (b.x < at); };
+  scene::Scene scene = body_on_a_floor();
+  scene.materials.resize(2);
+  scene.meshes = {scene::make_quad({-3, 0, -3}, {0, 0, 6}, {3 + at, 0, 0}),
+                  scene::make_quad({at, 0.01f, -3}, {0, 0, 6}, {3 - at, 0, 0}),
+                  scene::make_quad({at, 0, -3}, {0, 0, 6}, {0, 2, 0})};
+  scene.instances.resize(3);
+  for (int i = 0; i < 3; ++i) scene.instances[i].mesh = i, scene.meshes[i].material = i / 2;
+  const auto fewest = [&](float transmission) {
+    scene.materials[1].transmission = transmission;
+    const SurfaceLists surfaces = prepare_fitted(scene, 0, around_body(), divided).surfaces;
+    std::size_t least = 100;
+    for (float x = -0.4f; x < 0.4f; x += 0.005f)
+      least = std::min(least, lighting(surfaces, {x, x < at ? 0 : 0.01f, 0.1f}).size());
+    return least;
+  };
+  EXPECT_GE(fewest(1), 3u);
+  EXPECT_EQ(fewest(0), 0u) << "a wall's two sides have no points in common";
+}
+
 TEST(SurfaceLists, APictureBeforeAWallHasItsOwnPoints) {
   // Its front, its back and the wall lie in one part of a cell, by turns with a border between two of them.
   for (int shift = 0; shift < 10; ++shift) {

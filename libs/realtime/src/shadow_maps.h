@@ -29,9 +29,11 @@ struct MapView {
 /// Face 0..5 in the order and with the axes of shadow.glsl.
 MapView cube_view(const vec3& origin, int face, float near_plane,
                   float reach = std::numeric_limits<float>::infinity());
-/// Near plane of cube maps in a scene within `bounds`.
+/// Near plane of cube maps in a scene within `bounds`: what stands nearer blocks nothing. A centimetre in
+/// wide scenes, as far as 32 bits of depth bear it for triangles that reach from there to the horizon.
 inline float cube_near(const scene::Bounds& bounds) {
-  return std::max(5e-4f * bounds.radius(), 1e-6f);
+  const float radius = bounds.radius();
+  return std::max({std::min(5e-4f * radius, 0.01f), 1e-5f * radius, 1e-6f});
 }
 /// Whether the view can see anything of the box within its reach.
 bool sees_box(const MapView& view, const scene::Bounds& box);

@@ -183,9 +183,11 @@ TEST_F(Limits, APassTakes256VirtualLights) {
   }
 }
 
-TEST(CubeNear, IsATwoThousandthOfTheScenesRadius) {
+TEST(CubeNear, IsATwoThousandthOfTheScenesRadiusAndACentimetreInWideOnes) {
   const scene::Bounds bounds{vec3(-2, -1, -2), vec3(2, 1, 2)};  // 3 to a corner
   EXPECT_FLOAT_EQ(cube_near(bounds), 0.0015f);
+  EXPECT_EQ(cube_near({vec3(-200), vec3(200)}), 0.01f) << "what hangs a hand below a lamp of a street";
+  EXPECT_FLOAT_EQ(cube_near({vec3(-1e4f), vec3(1e4f)}), 1e-5f * std::sqrt(3e8f));
   EXPECT_EQ(cube_near({vec3(1), vec3(1)}), 1e-6f) << "of a point";
 }
 
