@@ -116,6 +116,34 @@ TEST(SurfaceRecords, GuidedRaysFindAPatchOfLightThatEvenOnesMeetByChance) {
   EXPECT_LT(relative_error(light(1 << 14, wrong), truth), 0.5 * even) << "and it converges";
 }
 
+TEST(SurfaceRecords, GuidedRaysFindAPlainThroughWindows) {
+  // Next to all of the bright plain around a house is hidden from its rooms.
+  const scene::Scene scene = scene::make_builtin("house");
+  const trace::TransportScene source(scene);
+  LitSession session(source, {{"hall", {1, 1.5f, 1}, 0.1f}}, {});
+  session.update();
+  const std::vector<rays::SurfacePoint> points = spread_places(session.network(), 250);
+  const std::vector<transport::Irradiance4> lit = session.patch_irradiance();
+  const auto direct = session.direct_by_group();
+  const auto light = [&](int rays, std::span<const std::vector<transport::Irradiance4>> guide) {
+    std::vector<probes::RecordLight> result;
+    SurfaceGather(session.network(), points, rays, guide).light(lit, result);
+    return result;
+  };
+  const std::vector<probes::RecordLight> truth = light(1 << 14, direct);
+  double mean = 0;
+  for (const probes::RecordLight& l : truth) mean += double(l[3].y) / double(truth.size());
+  const auto error = [&](const std::vector<probes::RecordLight>& found) {
+    double sum = 0;
+    for (std::size_t p = 0; p < truth.size(); ++p) {
+      const auto e = double(truth[p][3].y);
+      sum += std::abs(double(found[p][3].y) - e) / (e + 0.05 * mean);
+    }
+    return sum / double(truth.size());
+  };
+  EXPECT_LT(error(light(1024, direct)), 0.325 * error(light(1024, {})));
+}
+
 TEST(SurfaceRecords, GatheredLightIsThatOfRecordsAtTheirPlaces) {
   RecordRoom room;
   class Glossy final : public rays::IndirectLight {

@@ -9,10 +9,17 @@
 namespace ssphh::transport {
 namespace {
 
-/// Bright surfels that a place is guided by, and before those that nothing sees are left out.
-constexpr std::size_t most_bright = 256, most_asked = 1024;
+/// Bright surfels that a place is guided by, and before those that nothing sees are left out; patches that
+/// rays met.
+constexpr std::size_t most_bright = 256, most_asked = 1024, most_met = 256;
 /// Of the rays that are guided, the share that is not.
 constexpr float even_share = 0.25f;
+
+float patch_area(const TransportNetwork::Data& d, std::size_t patch) {
+  const std::size_t surfel = patch / d.sample_count();
+  const float size = d.surfels.size(d.surfels.surfels()[surfel].level);
+  return size * size / static_cast<float>(d.used_samples(surfel));
+}
 
 }  // namespace
 
@@ -66,10 +73,8 @@ std::vector<float> patch_flux(const TransportNetwork::Data& d,
   for (const std::vector<Irradiance4>& group : direct) {
     double total = 0;
     for (std::size_t s = 0; s < surfels.size(); ++s) {
-      const float size = d.surfels.size(surfels[s].level);
-      const std::size_t used = d.used_samples(s);
-      for (std::size_t p = s * m; p < s * m + used; ++p) {
-        of_group[p] = luminance(d.albedo[p] * vec3(group[p])) * size * size / static_cast<float>(used);
+      for (std::size_t p = s * m; p < s * m + d.used_samples(s); ++p) {
+        of_group[p] = luminance(d.albedo[p] * vec3(group[p])) * patch_area(d, p);
         total += of_group[p];
       }
     }
@@ -103,8 +108,11 @@ std::vector<std::uint32_t> spatial_order(std::span<const rays::SurfacePoint> poi
   return order;
 }
 
-std::vector<BrightPoint> bright_points(const TransportNetwork::Data& d, std::span<const float> flux,
-                                       std::span<const rays::SurfacePoint> together) {
+namespace {
+
+/// What the brightest surfels hold that are seen, of those that would light the points most.
+void add_seen(const TransportNetwork::Data& d, std::span<const float> flux,
+              std::span<const rays::SurfacePoint> together, std::vector<std::int32_t>& patches) {
   vec3 middle(0);
   for (const rays::SurfacePoint& p : together) middle += p.position / static_cast<float>(together.size());
   float radius2 = 0;
@@ -127,7 +135,6 @@ std::vector<BrightPoint> bright_points(const TransportNetwork::Data& d, std::spa
   std::ranges::partial_sort(found, found.begin() + static_cast<std::ptrdiff_t>(asked));
   found.resize(asked);
 
-  std::vector<BrightPoint> bright;
   std::size_t taken = 0;
   for (std::size_t i = 0; i < found.size() && taken < most_bright; ++i) {
     const std::size_t s = found[i].second;
@@ -142,10 +149,58 @@ std::vector<BrightPoint> bright_points(const TransportNetwork::Data& d, std::spa
     }
     if (!seen) continue;
     ++taken;
-    for (std::size_t p = s * m; p < (s + 1) * m; ++p) {
-      if (flux[p] > 0) bright.push_back({d.samples[p], flux[p]});
-    }
+    for (std::size_t p = s * m; p < (s + 1) * m; ++p) patches.push_back(static_cast<std::int32_t>(p));
   }
+}
+
+/// What even rays of some of the points meet: a plain outside of a window is large, and next to all of it is
+/// hidden.
+void add_met(const TransportNetwork::Data& d, std::span<const float> flux,
+             std::span<const rays::SurfacePoint> together, std::vector<std::int32_t>& patches) {
+  constexpr std::size_t asking = 16;
+  const HemisphereParts parts(1024);
+  const std::size_t step = (together.size() + asking - 1) / asking;
+  std::vector<rays::RayQuery> rays;
+  for (std::size_t i = 0; i < together.size(); i += step) {
+    const rays::SurfacePoint& point = together[i];
+    const Frame frame = Frame::around(point.normal);
+    const vec3 origin = point.position + link_lift * d.surfels.size() * point.normal;
+    for (std::size_t part = 0; part < parts.count(); ++part)
+      rays.push_back({origin, frame.to_world(parts.direction(part, 0, i))});
+  }
+  std::vector<rays::RayHit> hits(rays.size());
+  d.source.intersect(0, rays, hits);
+  std::vector<std::int32_t> met;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (!hits[i].escaped())
+      met.push_back(d.find_static({rays[i].origin + hits[i].distance * rays[i].direction, hits[i].normal}));
+  }
+  std::ranges::sort(met);
+  std::vector<std::pair<float, std::int32_t>> found;  // less what arrives of it, patch
+  for (std::size_t i = 0, next = 0; i < met.size(); i = next) {
+    while (next < met.size() && met[next] == met[i]) ++next;
+    if (met[i] == no_patch || !(flux[met[i]] > 0)) continue;
+    const float radiosity = flux[met[i]] / patch_area(d, static_cast<std::size_t>(met[i]));
+    found.emplace_back(-radiosity * static_cast<float>(next - i), met[i]);
+  }
+  std::ranges::sort(found);
+  if (found.size() > most_met) found.resize(most_met);
+  for (const auto& [arriving, patch] : found) patches.push_back(patch);
+}
+
+}  // namespace
+
+std::vector<BrightPoint> bright_points(const TransportNetwork::Data& d, std::span<const float> flux,
+                                       std::span<const rays::SurfacePoint> together) {
+  if (std::ranges::none_of(flux, [](float f) { return f > 0; })) return {};
+  std::vector<std::int32_t> patches;
+  add_seen(d, flux, together, patches);
+  add_met(d, flux, together, patches);
+  std::ranges::sort(patches);
+  patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
+  std::vector<BrightPoint> bright;
+  for (const std::int32_t p : patches)
+    if (flux[p] > 0) bright.push_back({d.samples[p], flux[p]});
   return bright;
 }
 

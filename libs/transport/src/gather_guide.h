@@ -45,7 +45,7 @@ std::vector<float> patch_flux(const TransportNetwork::Data& d,
 /// Orders points so that neighbours in the list are neighbours in space.
 std::vector<std::uint32_t> spatial_order(std::span<const rays::SurfacePoint> points);
 
-/// What shines brightest onto points that stand together and is seen by one of them.
+/// What shines brightest onto points that stand together: what one of them sees, and what rays of some meet.
 std::vector<BrightPoint> bright_points(const TransportNetwork::Data& d, std::span<const float> flux,
                                        std::span<const rays::SurfacePoint> together);
 
