@@ -40,7 +40,7 @@ void add_commands(Command app, Context& context) {
         add_leak_command,     add_measure_command,     add_methods_command,   add_relight_command,
         add_broker_command,   add_bench_frame_command, add_turntable_command, add_view_command,
         add_worker_command,   add_farm_commands,       add_report_command,    add_cook_command,
-        add_sphl_commands,    add_lightmap_command,    add_web_command})
+        add_sphl_commands,    add_lightmap_command,    add_web_command,       add_doctor_command})
     add(app, context);
 }
 

@@ -84,6 +84,6 @@ AddCommand add_respond_command, add_scene_commands, add_render_command, add_bake
     add_broker_command, add_compare_command, add_export_command, add_truth_command, add_report_command,
     add_leak_command, add_measure_command, add_methods_command, add_relight_command, add_bench_frame_command,
     add_turntable_command, add_view_command, add_worker_command, add_farm_commands, add_cook_command,
-    add_sphl_commands, add_lightmap_command, add_web_command;
+    add_sphl_commands, add_lightmap_command, add_web_command, add_doctor_command;
 
 }  // namespace ssphh::app
