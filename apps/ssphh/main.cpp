@@ -53,10 +53,17 @@ int run(int argc, char** argv) {
     return usage;
   }
   try {
+    if (!words[0].starts_with('-')) {
+      context.settings = read_settings(words, line.settable());
+      apply_settings(line, context.settings);
+    }
     line.parse(words);
   } catch (const ParsingEnded& ended) {
     std::fputs(ended.text.c_str(), ended.wrong_usage ? stderr : stdout);
     return ended.wrong_usage ? usage : success;
+  } catch (const Error& e) {
+    log(LogLevel::error, e.what());
+    return usage;
   }
 
   StderrProgress progress(context.progress);

@@ -20,8 +20,13 @@ Command add_command(Command parent, Context& context, const std::string& name, c
   common.flag("--json", context.json, "Print one JSON object on stdout and nothing else there");
   common.option("--seed", context.seed, "Seed of all random numbers; the same seed gives the same bits");
   common.option("--threads", context.threads, "Worker threads; 0: all. Does not change results")
-      .range(0, 4096);
-  common.choice("--progress", context.progress, "Progress on stderr: auto, bar, plain, json or none");
+      .range(0, 4096)
+      .settable();
+  common.choice("--progress", context.progress, "Progress on stderr: auto, bar, plain, json or none")
+      .settable();
+  common.option("--config", context.config,
+                "File of defaults in place of the user's own; none: no defaults, nor variables SSPHH_… "
+                "(docs/commands.md)");
   command.when_chosen([&context, action = std::move(action)] { context.run = action; });
   return command;
 }

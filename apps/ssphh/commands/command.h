@@ -12,6 +12,7 @@
 #include <ssphh/core/json.h>
 
 #include "options/command_line.h"
+#include "options/settings.h"
 #include "results/stderr_progress.h"
 
 namespace ssphh::app {
@@ -22,6 +23,8 @@ struct Context {
   std::uint64_t seed = 0;
   int threads = 0;
   ProgressStyle progress = ProgressStyle::automatic;
+  std::string config;         ///< as the command line has it; `settings` are what was read
+  Settings settings;          ///< defaults of the user's own
   Control control;            ///< progress on stderr, cancelled by Ctrl-C
   std::function<void()> run;  ///< set by the chosen command while options are parsed
   int exit_code = 0;          ///< of a command that gave a result and still has to report a failure
@@ -34,6 +37,7 @@ template <class Options, class Run>
 void run_and_print(Context& context, Options& options, const Run& run) {
   if constexpr (requires { options.seed; }) options.seed = context.seed;
   if constexpr (requires { options.threads; }) options.threads = context.threads;
+  if constexpr (requires { options.settings; }) options.settings = context.settings;
   const auto result = run(options, context.control);
   if constexpr (requires { has_failed(result, options); }) {
     if (has_failed(result, options)) context.exit_code = 1;
@@ -41,8 +45,8 @@ void run_and_print(Context& context, Options& options, const Run& run) {
   context.result(to_json(result, options), to_text(result, options));
 }
 
-/// A leaf command with the common options (--json, --seed, --threads, --progress). `action` runs after
-/// parsing; it throws Error for bad input.
+/// A leaf command with the common options (--json, --seed, --threads, --progress, --config). `action` runs
+/// after parsing; it throws Error for bad input.
 Command add_command(Command parent, Context& context, const std::string& name, const std::string& description,
                     std::function<void()> action);
 
@@ -60,9 +64,9 @@ Added<Options> add_command(Command parent, Context& context, const std::string& 
   return {add_command(parent, context, name, description, [options, action] { action(*options); }), *options};
 }
 
-/// One that runs a function of options, `run(options, control)`, and prints its result. --seed and --threads
-/// go into the options' members of these names, where they have such; a result of which has_failed() is true
-/// is printed and gives exit code 1.
+/// One that runs a function of options, `run(options, control)`, and prints its result. --seed, --threads
+/// and the user's settings go into the options' members of these names, where they have such; a result of
+/// which has_failed() is true is printed and gives exit code 1.
 template <class Options, class Result>
 Added<Options> add_command(Command parent, Context& context, const std::string& name,
                            const std::string& description, Result (*run)(const Options&, const Control&)) {

@@ -189,13 +189,24 @@ DoctorRow folder(const char* part, const fs::path& path) {
           Health::ok, ""};
 }
 
+/// Defaults of the user's own.
+void add_settings(const Settings& settings, std::vector<DoctorRow>& rows) {
+  rows.push_back({"settings",
+                  settings.file.empty() ? "none are read"
+                                        : settings.file.string() + (settings.found ? "" : " (not there)"),
+                  Health::ok, ""});
+  for (const Setting& setting : settings.in_force)
+    rows.push_back(
+        {"setting", fmt::format("{} = {}, by {}", setting.key, setting.value, setting.from), Health::ok, ""});
+}
+
 const char* mark(Health health) {
   return health == Health::ok ? "ok" : health == Health::missing ? "--" : "!!";
 }
 
 }  // namespace
 
-DoctorReport run_doctor(const DoctorOptions&, const Control& control) {
+DoctorReport run_doctor(const DoctorOptions& options, const Control& control) {
   std::error_code ignored;
   DoctorReport report;
   report.rows = {
@@ -224,6 +235,7 @@ DoctorReport run_doctor(const DoctorOptions&, const Control& control) {
       folder("autosave", user_folder("XDG_STATE_HOME", ".local/state") / "autosave"),
       folder("temporary", fs::temp_directory_path(ignored)),
   };
+  add_settings(options.settings, report.rows);
   return report;
 }
 

@@ -8,6 +8,8 @@
 #include <ssphh/core/enum_names.h>
 #include <ssphh/core/json.h>
 
+#include "options/settings.h"
+
 namespace ssphh::app {
 
 /// `missing`: some commands do not work, or not well; `broken`: no bake does.
@@ -24,7 +26,9 @@ struct DoctorRow {
   std::string advice;  ///< what to do; empty where all is well
 };
 
-struct DoctorOptions {};
+struct DoctorOptions {
+  Settings settings;  ///< that are in force
+};
 
 struct DoctorReport {
   std::vector<DoctorRow> rows;

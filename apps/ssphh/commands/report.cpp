@@ -155,7 +155,7 @@ std::optional<FarmSession> start_farm(const ReportOptions& o, RunPlace& place) {
   if (!farm) return farm;
   // Not the farm's own results: seconds would tell of work that was done another day.
   place.farm = {"--broker", farm->options().broker.endpoint, "--cache", "none"};
-  if (!o.farm.broker.keys.empty())
+  if (o.farm.local == 0 && !o.farm.broker.keys.empty())
     place.farm.insert(place.farm.end(), {"--keys", o.farm.broker.keys, "--key", o.farm.broker.key});
   return farm;
 }
@@ -242,6 +242,9 @@ void add_report_command(Command app, Context& context) {
   auto [command, o] = add_command<ReportOptions>(app, context, "report",
                                                  "Run a plan of scenes and methods and show what it gave",
                                                  [&context, app](ReportOptions& given) {
+                                                   // One of the user's own would stand in the plan's lines.
+                                                   if (!app.at("report")["--threads"].given())
+                                                     context.threads = 0;
                                                    given.commands = step_commands(app);
                                                    run_and_print(context, given, run_report);
                                                  });
