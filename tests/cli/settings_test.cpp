@@ -97,7 +97,8 @@ TEST_F(SettingsOfAUser, WhatChangesResultsIsNoSetting) {
   Context context;
   const CommandLine line("ssphh");
   add_commands(line.root(), context);
-  EXPECT_THAT(line.settable(), testing::UnorderedElementsAre("threads", "progress", "broker", "keys"));
+  EXPECT_THAT(line.settable(),
+              testing::UnorderedElementsAre("threads", "progress", "log-json", "broker", "keys"));
   EXPECT_THAT(
       problem("seed = 3\n"),
       testing::AllOf(HasSubstr("ssphh/config.toml:1: \"seed\" is no option with a default of your own"),

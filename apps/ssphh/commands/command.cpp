@@ -24,6 +24,10 @@ Command add_command(Command parent, Context& context, const std::string& name, c
       .settable();
   common.choice("--progress", context.progress, "Progress on stderr: auto, bar, plain, json or none")
       .settable();
+  common
+      .flag("--log-json", context.log_json,
+            "Messages on stderr as JSON, one object a line; --progress auto, too")
+      .settable();
   common.option("--config", context.config,
                 "File of defaults in place of the user's own; none: no defaults, nor variables SSPHH_… "
                 "(docs/commands.md)");

@@ -23,6 +23,7 @@ struct Context {
   std::uint64_t seed = 0;
   int threads = 0;
   ProgressStyle progress = ProgressStyle::automatic;
+  bool log_json = false;
   std::string config;         ///< as the command line has it; `settings` are what was read
   Settings settings;          ///< defaults of the user's own
   Control control;            ///< progress on stderr, cancelled by Ctrl-C
@@ -45,8 +46,8 @@ void run_and_print(Context& context, Options& options, const Run& run) {
   context.result(to_json(result, options), to_text(result, options));
 }
 
-/// A leaf command with the common options (--json, --seed, --threads, --progress, --config). `action` runs
-/// after parsing; it throws Error for bad input.
+/// A leaf command with the common options (--json, --seed, --threads, --progress, --log-json, --config).
+/// `action` runs after parsing; it throws Error for bad input.
 Command add_command(Command parent, Context& context, const std::string& name, const std::string& description,
                     std::function<void()> action);
 
