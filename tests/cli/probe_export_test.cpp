@@ -47,6 +47,7 @@ class ProbeExportTool : public testing::Test {
 TEST_F(ProbeExportTool, WritesTheFilesThatItNamesAndTellsWhatIsLost) {
   for (const auto& [target, endings] :
        std::vector<std::pair<std::string, std::vector<std::string>>>{{"csv", {".csv"}},
+                                                                     {"gltf", {".glb"}},
                                                                      {"three", {".json", ".bin"}},
                                                                      {"godot", {".tres"}},
                                                                      {"bevy", {".vxgi.ktx2", ".json"}},

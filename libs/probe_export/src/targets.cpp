@@ -21,6 +21,9 @@ constexpr std::array table = {
     Target{"csv", "one line per probe, for scripts and importers of one's own",
            "every probe: name, place, radius and the radiance it holds, all bands, summed over groups",
            "edges, fitted weights, surface records", ".csv", sh::max_degree, false, true, write_csv},
+    Target{"gltf", "glTF with the own extension SSPHH_light_probes: a GLB file of a node for each probe",
+           "every probe: name, place, radius and the radiance it holds, all bands, summed over groups",
+           "edges, fitted weights, surface records", ".glb", sh::max_degree, false, true, write_gltf},
     Target{"three", "three.js LightProbeGridWebGL: a JSON header and its texture as half floats",
            "a grid of radiance of degree 2, resampled by this project's lookup, cells laid along walls",
            "bands above 2, fitted weights, surface records; the engine hides nothing itself", ".json", 2,
@@ -68,6 +71,12 @@ json::Value json_triple(const vec3& v) {
 
 void write_half(ByteWriter& out, float value, const char* what) {
   out.value(image::to_half(value, what));
+}
+
+std::vector<sh::RadianceSh> written_light(const ExportSource& source) {
+  probes::LookupParams params;
+  params.light = source.light;
+  return probes::surface_light(source.set, params);
 }
 
 LightGrid make_grid(const ExportSource& source, const Control& control) {

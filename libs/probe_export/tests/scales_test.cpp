@@ -7,6 +7,8 @@
 
 #include "error_message.h"
 #include "expect_near.h"
+#include "json_schema.h"
+#include "places.h"
 #include "readers.h"
 #include "thread_count.h"
 
@@ -110,6 +112,25 @@ TEST(Scales, CsvHoldsEveryProbesRadianceOfAllBands) {
   }
   EXPECT_EQ(text_of(file.files[0]), line + "\n");
   test::expect_near(set.probes[7].reflected[2], field(2, set.probes[7].position, true));
+}
+
+TEST(Scales, GltfHoldsEveryProbesRadianceOfAllBands) {
+  for (const bool linear : {false, true}) {
+    const probes::ProbeSet set = field_set(linear, 3);
+    const GltfReader file(exported("gltf", set));
+    ASSERT_EQ(file.places.size(), set.probes.size());
+    for (std::size_t i = 0; i < file.places.size(); ++i) {
+      EXPECT_EQ(file.places[i], set.probes[i].position);
+      EXPECT_TRUE(std::ranges::equal(file.light[i], set.probes[i].reflected.values));
+      for (const vec3& n : {vec3(1, 0, 0), vec3(0, -1, 0), vec3(0.6f, 0, 0.8f)})
+        test::expect_near(irradiance_of(file.light[i], n), field_irradiance(file.places[i], n, linear),
+                          1e-3f);
+      EXPECT_EQ(file.document["nodes"][i]["name"], set.probes[i].name);
+    }
+    EXPECT_THAT(test::schema_errors(test::source_dir() / "schemas/light-probes-extension.schema.json",
+                                    json::print(file.document["extensions"]["SSPHH_light_probes"])),
+                testing::IsEmpty());
+  }
 }
 
 TEST(Scales, AGroupAloneIsItsShareOfTheSum) {
