@@ -48,6 +48,7 @@ TEST_F(ProbeExportTool, WritesTheFilesThatItNamesAndTellsWhatIsLost) {
   for (const auto& [target, endings] :
        std::vector<std::pair<std::string, std::vector<std::string>>>{{"csv", {".csv"}},
                                                                      {"gltf", {".glb"}},
+                                                                     {"blender", {".py"}},
                                                                      {"three", {".json", ".bin"}},
                                                                      {"godot", {".tres"}},
                                                                      {"bevy", {".vxgi.ktx2", ".json"}},

@@ -6,6 +6,7 @@
 namespace ssphh::probe_export {
 
 Exported write_babylon(const ExportSource& source, const std::string& name, const Control& control);
+Exported write_blender(const ExportSource& source, const std::string& name, const Control& control);
 Exported write_csv(const ExportSource& source, const std::string& name, const Control& control);
 Exported write_bevy(const ExportSource& source, const std::string& name, const Control& control);
 Exported write_gltf(const ExportSource& source, const std::string& name, const Control& control);
