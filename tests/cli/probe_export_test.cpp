@@ -48,6 +48,7 @@ TEST_F(ProbeExportTool, WritesTheFilesThatItNamesAndTellsWhatIsLost) {
   for (const auto& [target, endings] :
        std::vector<std::pair<std::string, std::vector<std::string>>>{{"csv", {".csv"}},
                                                                      {"gltf", {".glb"}},
+                                                                     {"unity", {".json", ".cs"}},
                                                                      {"blender", {".py"}},
                                                                      {"three", {".json", ".bin"}},
                                                                      {"godot", {".tres"}},
@@ -81,7 +82,7 @@ TEST_F(ProbeExportTool, GroupsApart) {
 
 TEST_F(ProbeExportTool, ListNeedsNothing) {
   const json::Value list = json_here({"probe", "export", "--list"});
-  EXPECT_EQ(list["targets"].size(), 6u);
+  EXPECT_EQ(list["targets"].size(), 9u);
   EXPECT_THAT(test::text_here({"probe", "export", "--list"}),
               AllOf(HasSubstr("three: "), HasSubstr("  loses ")));
 }

@@ -5,6 +5,6 @@
 
 namespace ssphh::probe_export {
 
-extern const std::string_view blender_script;
+extern const std::string_view unity_script, blender_script;
 
 }  // namespace ssphh::probe_export

@@ -36,6 +36,12 @@ constexpr std::array table = {
            "every probe's radiance of degree 2, tetrahedra between the probes and the planes that find them",
            "bands above 2, fitted weights, surface records; the engine hides nothing itself", ".tres", 2,
            false, false, write_godot},
+    Target{
+        "unity", "Unity light probes (SphericalHarmonicsL2): a JSON file and the editor script that reads it",
+        "every probe's radiance of degree 2, at places of a LightProbeGroup",
+        "bands above 2, fitted weights, surface records, tetrahedra: Unity makes its own; the engine hides "
+        "nothing itself",
+        ".json", 2, false, false, write_unity},
     Target{"bevy", "Bevy IrradianceVolume: ambient cubes as half floats, and a JSON file with its place",
            "a grid of irradiance along six axes, each asked for before the surface there that faces it",
            "all between the axes, fitted weights, surface records; the engine hides nothing itself",

@@ -13,6 +13,7 @@ Exported write_gltf(const ExportSource& source, const std::string& name, const C
 Exported write_godot(const ExportSource& source, const std::string& name, const Control& control);
 Exported write_playcanvas(const ExportSource& source, const std::string& name, const Control& control);
 Exported write_three(const ExportSource& source, const std::string& name, const Control& control);
+Exported write_unity(const ExportSource& source, const std::string& name, const Control& control);
 
 std::vector<std::byte> bytes_of(std::string_view text);
 json::Value json_triple(const vec3& v);

@@ -152,6 +152,22 @@ inline vec3 playcanvas_diffuse(const std::array<vec3, 9>& sh, const vec3& n) {
   return glm::max(color, vec3(0));
 }
 
+/// Unity, SphericalHarmonicsL2 of a probe: what SHEvalLinearL0L1 and SHEvalLinearL2 of its shaders sum, of
+/// constants as the engine sets them for an object (unity_SHAr and so on): E(n)/π, in Unity's axes.
+inline vec3 unity_diffuse(const json::Value& light, std::size_t probe, const vec3& n) {
+  vec3 color;
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    const auto c = [&](std::size_t k) {
+      return static_cast<float>(light[27 * probe + 9 * channel + k].number());
+    };
+    const vec4 a(c(3), c(1), c(2), c(0) - c(6)), b(c(4), c(5), 3 * c(6), c(7));
+    color[static_cast<int>(channel)] = glm::dot(a, vec4(n, 1)) +
+                                       glm::dot(b, vec4(n.x * n.y, n.y * n.z, n.z * n.z, n.z * n.x)) +
+                                       c(8) * (n.x * n.x - n.y * n.y);
+  }
+  return color;
+}
+
 /// A GLB file with the extension SSPHH_light_probes, read as docs/engines/gltf.md tells.
 struct GltfReader {
   json::Value document;
