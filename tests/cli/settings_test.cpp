@@ -133,6 +133,17 @@ TEST_F(SettingsOfAUser, NoWorkGoesToAFarmUnlessTheCommandLineSaysSo) {
   test::expect_failure({"farm", "status", "--config", nothing}, "tcp://192.0.2.1:5555");
 }
 
+TEST_F(SettingsOfAUser, ALocalFarmReadsNone) {
+  const TempDir out;
+  write_file(out / "nothing.toml", "");
+  // Its broker has no keys, and a worker with others would never be heard.
+  const Variable config("SSPHH_CONFIG", (out / "nothing.toml").c_str()), keys("SSPHH_KEYS", "/no/keys");
+  const test::ToolResult result =
+      test::run_tool({"render", "builtin:furnace", "--width", "4", "--height", "2", "--spp", "1", "--local",
+                      "1", "--cache", "none", "-o", out / "a.exr"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
 TEST_F(SettingsOfAUser, WhatIsWrongIsToldWithItsLine) {
   EXPECT_THAT(problem("\nthread = 2\n"), HasSubstr("config.toml:2: \"thread\" is no option"));
   EXPECT_THAT(problem("thread = 2\n"), HasSubstr("did you mean \"threads\"?"));
