@@ -7,12 +7,14 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <ssphh/core/log.h>
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/version.h>
 
 #include "commands/command.h"
+#include "results/stderr_log.h"
 #include "results/stderr_progress.h"
 
 namespace ssphh::app {
@@ -35,6 +37,7 @@ int fail(const Context& context, const std::string& message) {
 }
 
 int run(int argc, char** argv) {
+  if (wants_colour(::isatty(STDERR_FILENO) != 0)) log_in_colour();
   Context context;
   const CommandLine line("ssphh: global illumination from hierarchies of spherical-harmonics light probes");
   const Command app = line.root();
@@ -53,12 +56,23 @@ int run(int argc, char** argv) {
     return usage;
   }
   try {
+    if (!words[0].starts_with('-')) {
+      context.settings = read_settings(words, line.settable());
+      apply_settings(line, context.settings);
+    }
     line.parse(words);
   } catch (const ParsingEnded& ended) {
     std::fputs(ended.text.c_str(), ended.wrong_usage ? stderr : stdout);
     return ended.wrong_usage ? usage : success;
+  } catch (const Error& e) {
+    log(LogLevel::error, e.what());
+    return usage;
   }
 
+  if (context.log_json) {
+    log_as_json();
+    if (context.progress == ProgressStyle::automatic) context.progress = ProgressStyle::json;
+  }
   StderrProgress progress(context.progress);
   context.control = {&progress, &cancel_token};
   std::signal(SIGINT, on_signal);

@@ -33,6 +33,7 @@ std::string describe(const CLI::Option& option) {
     if (option.get_items_expected_max() > option.get_items_expected_min()) text += " or more";
   }
   if (option.get_delimiter() != '\0') text += std::string(", by '") + option.get_delimiter() + "'";
+  if (option.get_configurable()) text += ", settable";
   if (option.get_required()) text += ", required";
   for (const std::string& name : names(option.get_excludes())) text += ", not with " + name;
   for (const std::string& name : names(option.get_needs())) text += ", only with " + name;

@@ -47,6 +47,9 @@ class ProbeExportTool : public testing::Test {
 TEST_F(ProbeExportTool, WritesTheFilesThatItNamesAndTellsWhatIsLost) {
   for (const auto& [target, endings] :
        std::vector<std::pair<std::string, std::vector<std::string>>>{{"csv", {".csv"}},
+                                                                     {"gltf", {".glb"}},
+                                                                     {"unity", {".json", ".cs"}},
+                                                                     {"blender", {".py"}},
                                                                      {"three", {".json", ".bin"}},
                                                                      {"godot", {".tres"}},
                                                                      {"bevy", {".vxgi.ktx2", ".json"}},
@@ -79,7 +82,7 @@ TEST_F(ProbeExportTool, GroupsApart) {
 
 TEST_F(ProbeExportTool, ListNeedsNothing) {
   const json::Value list = json_here({"probe", "export", "--list"});
-  EXPECT_EQ(list["targets"].size(), 6u);
+  EXPECT_EQ(list["targets"].size(), 9u);
   EXPECT_THAT(test::text_here({"probe", "export", "--list"}),
               AllOf(HasSubstr("three: "), HasSubstr("  loses ")));
 }

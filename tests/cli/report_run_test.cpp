@@ -90,7 +90,8 @@ TEST_F(ReportRun, KeepsWhatACommandLeftAndDoesNotRunItAgain) {
   EXPECT_EQ(first.done, 1u);
   EXPECT_EQ(first.cached, 0u);
   EXPECT_TRUE(first.failures.empty());
-  EXPECT_EQ(calls(), "render builtin:x -o " + (work / "o.exr").string() + " --json --progress none\n");
+  EXPECT_EQ(calls(),
+            "render builtin:x -o " + (work / "o.exr").string() + " --json --progress none --config none\n");
   const report::JobRecord& record = first.records.at(key);
   EXPECT_EQ(record.build, "b1");
   EXPECT_EQ(record.machine, "a machine");
@@ -117,8 +118,9 @@ TEST_F(ReportRun, SendsToAFarmWhatAFarmCanDo) {
   const report::Expansion plan = expansion(
       R"([{"name": "m", "steps": ["bake {scene} -o p.sphl", "measure {scene} --probes p.sphl -o m.json"]}])");
   const RunResult result = run(plan);
-  EXPECT_THAT(calls(), AllOf(HasSubstr("p.sphl --json --progress none --broker ipc:///b\nmeasure"),
-                             HasSubstr("m.json --json --progress none\n")));
+  EXPECT_THAT(calls(),
+              AllOf(HasSubstr("p.sphl --json --progress none --config none --broker ipc:///b\nmeasure"),
+                    HasSubstr("m.json --json --progress none --config none\n")));
   EXPECT_EQ(result.records.at(plan.jobs[0].key).machine, "a machine and a farm");
   EXPECT_EQ(result.records.at(plan.jobs[1].key).machine, "a machine");
 }

@@ -1,28 +1,18 @@
 #pragma once
 /// Scripts that stand in for other programs.
 
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 
 #include <ssphh/core/file.h>
 
+#include "variable.h"
+
 namespace ssphh::test {
 
 /// PATH for as long as it lives.
-class Path {
- public:
-  explicit Path(const std::string& value) {
-    const char* path = std::getenv("PATH");
-    before_ = path ? path : "";
-    ::setenv("PATH", value.c_str(), 1);
-  }
-  ~Path() { ::setenv("PATH", before_.c_str(), 1); }
-  Path(const Path&) = delete;
-  Path& operator=(const Path&) = delete;
-
- private:
-  std::string before_;
+struct Path : Variable {
+  explicit Path(const std::string& value) : Variable("PATH", value.c_str()) {}
 };
 
 inline void write_script(const std::filesystem::path& file, const std::string& text) {

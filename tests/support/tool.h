@@ -2,6 +2,7 @@
 /// Runs the ssphh tool as a user would and captures what it prints.
 
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -34,6 +35,7 @@ class ToolProcess {
       redirect(dir_ / "out", STDOUT_FILENO);
       redirect(dir_ / "err", STDERR_FILENO);
       ::close(STDIN_FILENO);
+      ::setenv("SSPHH_CONFIG", "none", 0);  // whatever the user's own defaults are
       std::vector<char*> argv = {const_cast<char*>(tool_path().c_str())};
       for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
       argv.push_back(nullptr);

@@ -20,8 +20,17 @@ Command add_command(Command parent, Context& context, const std::string& name, c
   common.flag("--json", context.json, "Print one JSON object on stdout and nothing else there");
   common.option("--seed", context.seed, "Seed of all random numbers; the same seed gives the same bits");
   common.option("--threads", context.threads, "Worker threads; 0: all. Does not change results")
-      .range(0, 4096);
-  common.choice("--progress", context.progress, "Progress on stderr: auto, bar, plain, json or none");
+      .range(0, 4096)
+      .settable();
+  common.choice("--progress", context.progress, "Progress on stderr: auto, bar, plain, json or none")
+      .settable();
+  common
+      .flag("--log-json", context.log_json,
+            "Messages on stderr as JSON, one object a line; --progress auto, too")
+      .settable();
+  common.option("--config", context.config,
+                "File of defaults in place of the user's own; none: no defaults, nor variables SSPHH_… "
+                "(docs/commands.md)");
   command.when_chosen([&context, action = std::move(action)] { context.run = action; });
   return command;
 }
@@ -40,7 +49,7 @@ void add_commands(Command app, Context& context) {
         add_leak_command,     add_measure_command,     add_methods_command,   add_relight_command,
         add_broker_command,   add_bench_frame_command, add_turntable_command, add_view_command,
         add_worker_command,   add_farm_commands,       add_report_command,    add_cook_command,
-        add_sphl_commands,    add_lightmap_command,    add_web_command})
+        add_sphl_commands,    add_lightmap_command,    add_web_command,       add_doctor_command})
     add(app, context);
 }
 

@@ -12,6 +12,7 @@
 #include <ssphh/core/json.h>
 
 #include "options/command_line.h"
+#include "options/settings.h"
 #include "results/stderr_progress.h"
 
 namespace ssphh::app {
@@ -22,6 +23,9 @@ struct Context {
   std::uint64_t seed = 0;
   int threads = 0;
   ProgressStyle progress = ProgressStyle::automatic;
+  bool log_json = false;
+  std::string config;         ///< as the command line has it; `settings` are what was read
+  Settings settings;          ///< defaults of the user's own
   Control control;            ///< progress on stderr, cancelled by Ctrl-C
   std::function<void()> run;  ///< set by the chosen command while options are parsed
   int exit_code = 0;          ///< of a command that gave a result and still has to report a failure
@@ -34,6 +38,7 @@ template <class Options, class Run>
 void run_and_print(Context& context, Options& options, const Run& run) {
   if constexpr (requires { options.seed; }) options.seed = context.seed;
   if constexpr (requires { options.threads; }) options.threads = context.threads;
+  if constexpr (requires { options.settings; }) options.settings = context.settings;
   const auto result = run(options, context.control);
   if constexpr (requires { has_failed(result, options); }) {
     if (has_failed(result, options)) context.exit_code = 1;
@@ -41,8 +46,8 @@ void run_and_print(Context& context, Options& options, const Run& run) {
   context.result(to_json(result, options), to_text(result, options));
 }
 
-/// A leaf command with the common options (--json, --seed, --threads, --progress). `action` runs after
-/// parsing; it throws Error for bad input.
+/// A leaf command with the common options (--json, --seed, --threads, --progress, --log-json, --config).
+/// `action` runs after parsing; it throws Error for bad input.
 Command add_command(Command parent, Context& context, const std::string& name, const std::string& description,
                     std::function<void()> action);
 
@@ -60,9 +65,9 @@ Added<Options> add_command(Command parent, Context& context, const std::string& 
   return {add_command(parent, context, name, description, [options, action] { action(*options); }), *options};
 }
 
-/// One that runs a function of options, `run(options, control)`, and prints its result. --seed and --threads
-/// go into the options' members of these names, where they have such; a result of which has_failed() is true
-/// is printed and gives exit code 1.
+/// One that runs a function of options, `run(options, control)`, and prints its result. --seed, --threads
+/// and the user's settings go into the options' members of these names, where they have such; a result of
+/// which has_failed() is true is printed and gives exit code 1.
 template <class Options, class Result>
 Added<Options> add_command(Command parent, Context& context, const std::string& name,
                            const std::string& description, Result (*run)(const Options&, const Control&)) {
@@ -84,6 +89,6 @@ AddCommand add_respond_command, add_scene_commands, add_render_command, add_bake
     add_broker_command, add_compare_command, add_export_command, add_truth_command, add_report_command,
     add_leak_command, add_measure_command, add_methods_command, add_relight_command, add_bench_frame_command,
     add_turntable_command, add_view_command, add_worker_command, add_farm_commands, add_cook_command,
-    add_sphl_commands, add_lightmap_command, add_web_command;
+    add_sphl_commands, add_lightmap_command, add_web_command, add_doctor_command;
 
 }  // namespace ssphh::app

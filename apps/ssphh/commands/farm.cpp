@@ -111,7 +111,7 @@ std::string to_text(const FarmKeygenResult&, const FarmKeygenOptions& o) {
 void add_farm_commands(Command app, Context& context) {
   Command group = add_group(app, "farm", "Look after a farm: status, top, drain, parked jobs, keys");
   const auto with_broker = [](const Command& command, BrokerChoice& broker, const std::string& key) {
-    add_broker_options(command.under("Broker"), broker, key).required();
+    add_required_broker(command.under("Broker"), broker, key);
   };
   auto [status, broker] =
       add_command(group, context, "status", "Workers, queues and counts of a broker", run_farm_status);

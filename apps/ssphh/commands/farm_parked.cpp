@@ -29,7 +29,7 @@ std::string jobs_text(int count) {
 }
 
 void add_choice(Command command, FarmJobsOptions& choice) {
-  add_broker_options(command.under("Broker"), choice.broker, "admin").required();
+  add_required_broker(command.under("Broker"), choice.broker, "admin");
   Option jobs = command.option("JOB", choice.jobs, "Numbers, as `ssphh farm parked` shows them");
   command.flag("--all", choice.all, "All that are set aside").excludes(jobs);
 }
@@ -86,7 +86,7 @@ void add_farm_parked_commands(Command group, Context& context) {
   auto [parked, broker] =
       add_command(group, context, "parked",
                   "Jobs that were set aside because workers failed on them, and why", run_farm_parked);
-  add_broker_options(parked.under("Broker"), broker, "client").required();
+  add_required_broker(parked.under("Broker"), broker, "client");
 
   auto [release, again] = add_command(group, context, "release",
                                       "Put jobs that were set aside back into the queue", run_farm_release);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
-#include <fstream>
 #include <set>
 #include <span>
 #include <thread>
@@ -23,6 +22,7 @@
 #include "commands/command.h"
 #include "commands/report_run.h"
 #include "options/scene_options.h"
+#include "results/processor.h"
 
 namespace ssphh::app {
 namespace {
@@ -65,15 +65,6 @@ std::map<std::string, std::string> hash_scenes(const report::Plan& plan, const f
     }
   }
   return hashes;
-}
-
-std::string processor() {
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);) {
-    const std::size_t colon = line.find(": ");
-    if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
-  }
-  return "unknown processor";
 }
 
 // Of the work tree in which the tool was built, if it lies in one.
@@ -149,7 +140,7 @@ RunPlace run_place(const ReportOptions& o) {
   fs::create_directories(place.cache);
   place.build = Hasher().bytes(read_file(place.tool)).finish().hex();
   place.machine =
-      fmt::format("{}, {} threads", processor(),
+      fmt::format("{}, {} threads", processor_name(),
                   o.threads > 0 ? o.threads : static_cast<int>(std::thread::hardware_concurrency()));
   place.any_build = o.any_build;
   return place;
@@ -164,7 +155,7 @@ std::optional<FarmSession> start_farm(const ReportOptions& o, RunPlace& place) {
   if (!farm) return farm;
   // Not the farm's own results: seconds would tell of work that was done another day.
   place.farm = {"--broker", farm->options().broker.endpoint, "--cache", "none"};
-  if (!o.farm.broker.keys.empty())
+  if (o.farm.local == 0 && !o.farm.broker.keys.empty())
     place.farm.insert(place.farm.end(), {"--keys", o.farm.broker.keys, "--key", o.farm.broker.key});
   return farm;
 }
@@ -251,6 +242,9 @@ void add_report_command(Command app, Context& context) {
   auto [command, o] = add_command<ReportOptions>(app, context, "report",
                                                  "Run a plan of scenes and methods and show what it gave",
                                                  [&context, app](ReportOptions& given) {
+                                                   // One of the user's own would stand in the plan's lines.
+                                                   if (!app.at("report")["--threads"].given())
+                                                     context.threads = 0;
                                                    given.commands = step_commands(app);
                                                    run_and_print(context, given, run_report);
                                                  });

@@ -68,7 +68,7 @@ JobRecord run_job(const Job& job, const RunPlace& place, int time_limit, const C
   std::vector<std::string> command = {place.tool.string()};
   for (std::string& word : report::command_line(job, place.cache, work.path()))
     command.push_back(std::move(word));
-  command.insert(command.end(), {"--json", "--progress", "none"});
+  command.insert(command.end(), {"--json", "--progress", "none", "--config", "none"});
   const bool far = !place.farm.empty() && runs_on_farm(job.words);
   if (far) command.insert(command.end(), place.farm.begin(), place.farm.end());
   JobRecord record;

@@ -48,7 +48,7 @@ void add_worker_command(Command app, Context& context) {
       add_command<WorkerSettings>(app, context, "worker", "Do jobs of a farm: GEN, VIZ and tiles of pictures",
                                   [&context](WorkerSettings& settings) { work(context, settings); });
   const Command worker = command.under("Worker");
-  add_broker_options(worker, o.broker, "worker").required();
+  add_required_broker(worker, o.broker, "worker");
   worker.option("--slots", o.pool.slots, "Jobs at a time; they share the scene and --threads").range(1, 1024);
   worker.option("--name", o.pool.name, "In logs and `farm status`; default: HOST:PID");
   worker.option("--cache", o.cache,

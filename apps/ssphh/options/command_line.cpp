@@ -10,6 +10,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "options/settings.h"
+
 namespace ssphh::app {
 namespace {
 
@@ -33,6 +35,13 @@ void refuse_what_is_not_finite(CLI::Option& option) {
     return std::isfinite(std::strtod(text.c_str(), nullptr)) ? "" : text + " is no finite number";
   };
   option.check(CLI::Validator(problem, ""));
+}
+
+template <class Visit>
+void each_settable(CLI::App& app, const Visit& visit) {
+  for (CLI::App* command : app.get_subcommands({})) each_settable(*command, visit);
+  for (CLI::Option* option : app.get_options())
+    if (option->get_configurable() && !option->get_lnames().empty()) visit(*option);
 }
 
 }  // namespace
@@ -120,6 +129,12 @@ Option Option::separated_by(char sign) const {
   return *this;
 }
 
+Option Option::settable() const {
+  const std::string variable = variable_of(option_->get_lnames().front());
+  option_->configurable()->description(option_->get_description() + " [" + variable + "]");
+  return *this;
+}
+
 bool Option::given() const {
   return option_->count() > 0;
 }
@@ -130,6 +145,7 @@ std::string Option::name() const {
 
 Option Command::headed(CLI::Option* option) const {
   if (!heading_.empty()) option->group(heading_);
+  option->configurable(false);  // until it is settable()
   return Option(option);
 }
 
@@ -189,6 +205,10 @@ Command Command::command(const std::string& name, const std::string& description
   return Command(app_->add_subcommand(name, description));
 }
 
+Command Command::at(const std::string& name) const {
+  return Command(app_->get_subcommand(name));
+}
+
 void Command::needs_command() const {
   app_->require_subcommand(1);
 }
@@ -217,6 +237,27 @@ Command CommandLine::root() const {
 
 void CommandLine::version(const std::string& text) const {
   app_->set_version_flag("--version", text);
+}
+
+std::vector<std::string> CommandLine::settable() const {
+  std::vector<std::string> names;
+  each_settable(*app_, [&](const CLI::Option& option) {
+    const std::string& name = option.get_lnames().front();
+    if (std::ranges::count(names, name) == 0) names.push_back(name);
+  });
+  return names;
+}
+
+std::string CommandLine::set_default(const std::string& name, const std::string& value) const {
+  try {
+    each_settable(*app_, [&](CLI::Option& option) {
+      if (option.get_lnames().front() == name)
+        option.required(false)->run_callback_for_default()->default_val(value);
+    });
+    return {};
+  } catch (const CLI::ParseError& e) {
+    return e.what();
+  }
 }
 
 void CommandLine::parse(std::vector<std::string> words) const {

@@ -42,6 +42,8 @@ class Option {
   Option values(int count) const;        ///< takes so many values at once
   Option repeatable() const;             ///< may be given again, with one value each time
   Option separated_by(char sign) const;  ///< many values in one word
+  /// Its default may be the user's own (settings.h), which --help tells. Only for what changes no result.
+  Option settable() const;
 
   bool given() const;  ///< once the line is parsed
   std::string name() const;
@@ -94,6 +96,7 @@ class Command {
   Option operator[](const std::string& name) const;
 
   Command command(const std::string& name, const std::string& description) const;
+  Command at(const std::string& name) const;  ///< the command of that name; there must be one
   std::vector<std::string> commands() const;  ///< their names
   void needs_command() const;                 ///< makes it a group: one of its commands must follow
 
@@ -129,6 +132,12 @@ class CommandLine {
 
   Command root() const;
   void version(const std::string& text) const;  ///< adds --version
+
+  /// Names, without dashes, of the options that are settable().
+  std::vector<std::string> settable() const;
+  /// Gives the settable options of that name in all commands another default, which goes into their targets
+  /// at once; what is required no longer is. What is wrong with the value, or empty.
+  std::string set_default(const std::string& name, const std::string& value) const;
 
   /// `words`: what follows the program's name. Sets the options' targets. Throws ParsingEnded.
   void parse(std::vector<std::string> words) const;

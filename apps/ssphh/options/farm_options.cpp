@@ -10,10 +10,16 @@ namespace ssphh::app {
 Option add_broker_options(Command command, BrokerChoice& choice, const std::string& key) {
   choice.key = key;
   Option broker = command.option("--broker", choice.endpoint, "The farm's broker, e.g. tcp://127.0.0.1:5555");
-  command.option("--keys", choice.keys,
-                 "Folder with broker.pub and NAME.key (`ssphh farm keygen`); wanted beyond loopback and ipc");
+  command
+      .option("--keys", choice.keys,
+              "Folder with broker.pub and NAME.key (`ssphh farm keygen`); wanted beyond loopback and ipc")
+      .settable();
   command.option("--key", choice.key, "Name of the own key in --keys");
   return broker;
+}
+
+void add_required_broker(Command command, BrokerChoice& choice, const std::string& key) {
+  add_broker_options(command, choice, key).required().settable();
 }
 
 farm::BrokerAddress broker_address(const BrokerChoice& choice) {

@@ -20,6 +20,9 @@ struct BrokerChoice {
 };
 /// --broker, --keys and --key; `key` is the default name of one's own key.
 Option add_broker_options(Command command, BrokerChoice& choice, const std::string& key);
+/// The same for a command that does nothing without a broker: --broker may be a default of the user's own. A
+/// command that can do the work itself goes to a farm only where its command line says so.
+void add_required_broker(Command command, BrokerChoice& choice, const std::string& key);
 farm::BrokerAddress broker_address(const BrokerChoice& choice);
 
 struct FarmChoice {

@@ -71,11 +71,12 @@ struct LocalFarm::Impl {
   pid_t start_worker(std::size_t i) const {
     const auto count = static_cast<std::size_t>(options.workers);
     const int threads = options.threads > 0 ? options.threads : std::max(1, thread_count() / options.workers);
-    return spawn(options.tool,
-                 {"worker", "--broker", endpoint, "--slots", "1", "--threads", std::to_string(threads),
-                  "--name", fmt::format("local:{}", i % count), "--cache", options.cache.string(),
-                  "--cache-size", std::to_string(std::max<std::uint64_t>(1, options.cache_bytes >> 20))},
-                 folder / fmt::format("worker-{}.log", i));
+    return spawn(
+        options.tool,
+        {"worker", "--broker", endpoint, "--slots", "1", "--threads", std::to_string(threads), "--name",
+         fmt::format("local:{}", i % count), "--cache", options.cache.string(), "--cache-size",
+         std::to_string(std::max<std::uint64_t>(1, options.cache_bytes >> 20)), "--config", "none"},
+        folder / fmt::format("worker-{}.log", i));
   }
 
   void watch() {
@@ -133,8 +134,8 @@ LocalFarm::LocalFarm(LocalFarmOptions options) : impl_(new Impl) {
   s.folder = temporary_folder();
   s.endpoint = "ipc://" + (s.folder / "broker").string();
   try {
-    s.broker =
-        spawn(s.options.tool, {"broker", "--bind", s.endpoint, "--attempts", "5"}, s.folder / "broker.log");
+    s.broker = spawn(s.options.tool, {"broker", "--bind", s.endpoint, "--attempts", "5", "--config", "none"},
+                     s.folder / "broker.log");
     for (int i = 0; i < s.options.workers; ++i)
       s.workers.push_back(s.start_worker(static_cast<std::size_t>(i)));
   } catch (...) {

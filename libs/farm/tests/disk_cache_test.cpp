@@ -7,12 +7,14 @@
 
 #include "farm_fixtures.h"
 #include "memory_dir.h"
+#include "variable.h"
 
 namespace ssphh::farm {
 namespace {
 
 using ssphh::test::memory_dir;
 using ssphh::test::TempDir;
+using ssphh::test::Variable;
 
 std::vector<std::byte> value(std::size_t size, int seed) {
   std::vector<std::byte> bytes(size);
@@ -160,22 +162,6 @@ TEST(DiskCache, CountsAnEighthAnewAfterALook) {
 TEST(DiskCache, FolderThatCannotBeMadeIsAnError) {
   EXPECT_THROW(DiskCache("/proc/nowhere", 1000), Error);
 }
-
-/// Sets a variable of the environment, or takes it away, until its end.
-class Variable {
- public:
-  Variable(const char* name, const char* value) : name_(name) {
-    if (const char* before = std::getenv(name)) before_ = before;
-    value ? ::setenv(name, value, 1) : ::unsetenv(name);
-  }
-  ~Variable() { before_ ? ::setenv(name_, before_->c_str(), 1) : ::unsetenv(name_); }
-  Variable(const Variable&) = delete;
-  Variable& operator=(const Variable&) = delete;
-
- private:
-  const char* name_;
-  std::optional<std::string> before_;
-};
 
 TEST(DiskCache, LiesWhereTheUsersCachesLie) {
   const auto dir = [](const char* xdg, const char* home) {

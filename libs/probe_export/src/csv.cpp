@@ -15,9 +15,7 @@ std::string quoted(const std::string& text) {
 }  // namespace
 
 Exported write_csv(const ExportSource& source, const std::string&, const Control&) {
-  probes::LookupParams params;
-  params.light = source.light;
-  const std::vector<sh::RadianceSh> light = probes::surface_light(source.set, params);
+  const std::vector<sh::RadianceSh> light = written_light(source);
   std::string text = "name,x,y,z,radius";
   for (int k = 0; k < sh::coefficient_count(source.set.degree); ++k)
     text += fmt::format(",r{0},g{0},b{0}", k);

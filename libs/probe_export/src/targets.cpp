@@ -21,6 +21,13 @@ constexpr std::array table = {
     Target{"csv", "one line per probe, for scripts and importers of one's own",
            "every probe: name, place, radius and the radiance it holds, all bands, summed over groups",
            "edges, fitted weights, surface records", ".csv", sh::max_degree, false, true, write_csv},
+    Target{"gltf", "glTF with the own extension SSPHH_light_probes: a GLB file of a node for each probe",
+           "every probe: name, place, radius and the radiance it holds, all bands, summed over groups",
+           "edges, fitted weights, surface records", ".glb", sh::max_degree, false, true, write_gltf},
+    Target{"blender", "a script that makes empties with the light as properties, and balls that show it",
+           "every probe: name, place, radius and the radiance it holds, all bands, summed over groups",
+           "edges, fitted weights, surface records; Blender's renderers take light from no probe", ".py",
+           sh::max_degree, false, true, write_blender},
     Target{"three", "three.js LightProbeGridWebGL: a JSON header and its texture as half floats",
            "a grid of radiance of degree 2, resampled by this project's lookup, cells laid along walls",
            "bands above 2, fitted weights, surface records; the engine hides nothing itself", ".json", 2,
@@ -29,6 +36,12 @@ constexpr std::array table = {
            "every probe's radiance of degree 2, tetrahedra between the probes and the planes that find them",
            "bands above 2, fitted weights, surface records; the engine hides nothing itself", ".tres", 2,
            false, false, write_godot},
+    Target{
+        "unity", "Unity light probes (SphericalHarmonicsL2): a JSON file and the editor script that reads it",
+        "every probe's radiance of degree 2, at places of a LightProbeGroup",
+        "bands above 2, fitted weights, surface records, tetrahedra: Unity makes its own; the engine hides "
+        "nothing itself",
+        ".json", 2, false, false, write_unity},
     Target{"bevy", "Bevy IrradianceVolume: ambient cubes as half floats, and a JSON file with its place",
            "a grid of irradiance along six axes, each asked for before the surface there that faces it",
            "all between the axes, fitted weights, surface records; the engine hides nothing itself",
@@ -68,6 +81,12 @@ json::Value json_triple(const vec3& v) {
 
 void write_half(ByteWriter& out, float value, const char* what) {
   out.value(image::to_half(value, what));
+}
+
+std::vector<sh::RadianceSh> written_light(const ExportSource& source) {
+  probes::LookupParams params;
+  params.light = source.light;
+  return probes::surface_light(source.set, params);
 }
 
 LightGrid make_grid(const ExportSource& source, const Control& control) {

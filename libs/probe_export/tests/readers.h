@@ -1,6 +1,7 @@
 #pragma once
 /// What engines do with the files, written from their shaders' descriptions.
 
+#include <algorithm>
 #include <array>
 
 #include <gtest/gtest.h>
@@ -149,6 +150,66 @@ inline vec3 playcanvas_diffuse(const std::array<vec3, 9>& sh, const vec3& n) {
   const vec3 color = sh[0] + sh[1] * n.x + sh[2] * n.y + sh[3] * n.z + sh[4] * n.x * n.z + sh[5] * n.z * n.y +
                      sh[6] * n.y * n.x + sh[7] * (3.0f * n.z * n.z - 1.0f) + sh[8] * (n.x * n.x - n.y * n.y);
   return glm::max(color, vec3(0));
+}
+
+/// Unity, SphericalHarmonicsL2 of a probe: what SHEvalLinearL0L1 and SHEvalLinearL2 of its shaders sum, of
+/// constants as the engine sets them for an object (unity_SHAr and so on): E(n)/π, in Unity's axes.
+inline vec3 unity_diffuse(const json::Value& light, std::size_t probe, const vec3& n) {
+  vec3 color;
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    const auto c = [&](std::size_t k) {
+      return static_cast<float>(light[27 * probe + 9 * channel + k].number());
+    };
+    const vec4 a(c(3), c(1), c(2), c(0) - c(6)), b(c(4), c(5), 3 * c(6), c(7));
+    color[static_cast<int>(channel)] = glm::dot(a, vec4(n, 1)) +
+                                       glm::dot(b, vec4(n.x * n.y, n.y * n.z, n.z * n.z, n.z * n.x)) +
+                                       c(8) * (n.x * n.x - n.y * n.y);
+  }
+  return color;
+}
+
+/// A GLB file with the extension SSPHH_light_probes, read as docs/engines/gltf.md tells.
+struct GltfReader {
+  json::Value document;
+  std::vector<vec3> places;
+  std::vector<std::vector<vec3>> light;  ///< coefficients of radiance
+
+  explicit GltfReader(const Exported& exported) {
+    const std::vector<std::byte>& data = exported.files.at(0).data;
+    ByteReader file(data, "glb");
+    const auto words = [&file](std::size_t size) {
+      return std::string_view(reinterpret_cast<const char*>(file.view("words", size).data()), size);
+    };
+    EXPECT_EQ(words(4), "glTF");
+    EXPECT_EQ(file.value<std::uint32_t>("version"), 2u);
+    EXPECT_EQ(file.value<std::uint32_t>("length"), data.size());
+    const auto text = file.value<std::uint32_t>("length of the JSON chunk");
+    EXPECT_EQ(text % 4, 0u);
+    EXPECT_EQ(words(4), "JSON");
+    document = json::parse(words(text), "glb");
+    const auto binary = file.value<std::uint32_t>("length of the binary chunk");
+    EXPECT_EQ(binary, file.left() - 4);
+    EXPECT_EQ(words(4), std::string_view("BIN\0", 4));
+
+    const json::Value& probes = document["extensions"]["SSPHH_light_probes"];
+    const json::Value& accessor = document["accessors"][static_cast<int>(*probes["radiance"].integer())];
+    const auto count =
+        static_cast<std::size_t>((*probes["degree"].integer() + 1) * (*probes["degree"].integer() + 1));
+    EXPECT_EQ(*accessor["count"].integer(), static_cast<std::int64_t>(count * probes["probes"].size()));
+    EXPECT_EQ(*document["buffers"][0]["byteLength"].integer(), 12 * *accessor["count"].integer());
+    for (const json::Value& probe : probes["probes"].elements()) {
+      places.push_back(triple(document["nodes"][static_cast<int>(*probe["node"].integer())]["translation"]));
+      std::vector<vec3>& values = light.emplace_back();
+      for (std::size_t k = 0; k < count; ++k) values.push_back(file.vector3("radiance"));
+    }
+  }
+};
+
+/// Irradiance of radiance of degree 2 (docs/conventions.md).
+inline vec3 irradiance_of(std::span<const vec3> c, const vec3& n) {
+  vec3 e = 0.886227f * c[0] + 1.023327f * (c[1] * n.y + c[2] * n.z + c[3] * n.x);
+  e += 0.858086f * (c[4] * n.x * n.y + c[5] * n.y * n.z + c[7] * n.x * n.z);
+  return e + c[6] * (0.743125f * n.z * n.z - 0.247708f) + c[8] * 0.429043f * (n.x * n.x - n.y * n.y);
 }
 
 }  // namespace ssphh::probe_export

@@ -7,6 +7,8 @@
 
 #include "error_message.h"
 #include "expect_near.h"
+#include "json_schema.h"
+#include "places.h"
 #include "readers.h"
 #include "thread_count.h"
 
@@ -110,6 +112,48 @@ TEST(Scales, CsvHoldsEveryProbesRadianceOfAllBands) {
   }
   EXPECT_EQ(text_of(file.files[0]), line + "\n");
   test::expect_near(set.probes[7].reflected[2], field(2, set.probes[7].position, true));
+}
+
+TEST(Scales, UnityReadsIrradianceOverPiInItsMirroredAxes) {
+  for (const bool linear : {false, true}) {
+    const probes::ProbeSet set = field_set(linear);
+    const Exported files = exported("unity", set);
+    const json::Value file = json::parse(text_of(files.files.at(0)), "unity");
+    EXPECT_EQ(file["format"], "ssphh-unity-probes");
+    ASSERT_EQ(file["positions"].size(), 3 * set.probes.size());
+    ASSERT_EQ(file["light"].size(), 27 * set.probes.size());
+    for (std::size_t i = 0; i < set.probes.size(); ++i) {
+      const vec3 at = set.probes[i].position;
+      const auto coordinate = [&](std::size_t axis) { return file["positions"][3 * i + axis].number(); };
+      test::expect_near(vec3(coordinate(0), coordinate(1), coordinate(2)), vec3(-at.x, at.y, at.z), 1e-6f);
+      for (const vec3& n : {vec3(1, 0, 0), vec3(0, -1, 0), vec3(0, 0, 1), vec3(0.6f, 0.64f, 0.48f)}) {
+        const vec3 mirrored(-n.x, n.y, n.z);
+        test::expect_near(unity_diffuse(file["light"], i, mirrored), field_irradiance(at, n, linear) / pi,
+                          six_digits);
+      }
+    }
+    for (const char* word : {"ssphh-unity-probes", "27 * p + n", "positions", "#endif"})
+      EXPECT_THAT(std::string(text_of(files.files.at(1))), testing::HasSubstr(word));
+  }
+}
+
+TEST(Scales, GltfHoldsEveryProbesRadianceOfAllBands) {
+  for (const bool linear : {false, true}) {
+    const probes::ProbeSet set = field_set(linear, 3);
+    const GltfReader file(exported("gltf", set));
+    ASSERT_EQ(file.places.size(), set.probes.size());
+    for (std::size_t i = 0; i < file.places.size(); ++i) {
+      EXPECT_EQ(file.places[i], set.probes[i].position);
+      EXPECT_TRUE(std::ranges::equal(file.light[i], set.probes[i].reflected.values));
+      for (const vec3& n : {vec3(1, 0, 0), vec3(0, -1, 0), vec3(0.6f, 0, 0.8f)})
+        test::expect_near(irradiance_of(file.light[i], n), field_irradiance(file.places[i], n, linear),
+                          1e-3f);
+      EXPECT_EQ(file.document["nodes"][i]["name"], set.probes[i].name);
+    }
+    EXPECT_THAT(test::schema_errors(test::source_dir() / "schemas/light-probes-extension.schema.json",
+                                    json::print(file.document["extensions"]["SSPHH_light_probes"])),
+                testing::IsEmpty());
+  }
 }
 
 TEST(Scales, AGroupAloneIsItsShareOfTheSum) {
