@@ -8,6 +8,7 @@
 #include <ssphh/core/file.h>
 #include <ssphh/core/json_cursor.h>
 #include <ssphh/core/log.h>
+#include <ssphh/core/require.h>
 #include <ssphh/core/stopwatch.h>
 #include <ssphh/farm/ask.h>
 #include <ssphh/farm/dispatch.h>
@@ -169,6 +170,14 @@ class Dispatcher {
 void dispatch(const FarmOptions& options, const std::vector<UnitGroup>& groups, FarmReport& report,
               const std::function<void(std::size_t, const FarmReport&)>& finished, const Control& control) {
   const Stopwatch watch;
+  const char* const where = "farm's work";
+  require(options.patience >= 0, where, "its patience is no number of seconds");
+  for (const UnitGroup& group : groups) {
+    if (group.count == 0) continue;
+    require(group.body != nullptr, where, "units have no body of a job");
+    require(group.done != nullptr, where, "nobody takes what is done");
+    require(finished != nullptr, where, "nobody is told what is finished");
+  }
   if (!options.messages.empty()) {
     std::error_code error;
     std::filesystem::create_directories(options.messages, error);

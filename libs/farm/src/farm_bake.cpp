@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <ssphh/core/require.h>
 #include <ssphh/farm/farm_bake.h>
 #include <ssphh/scene/query.h>
 
@@ -49,6 +50,12 @@ void FarmCrew::run(const probes::ProbeSet& set, const bake::BakeParams& params,
                    std::span<const ProbeStage> stages, const std::function<void(ProbeStageResult)>& done,
                    const Control& control) {
   if (stages.empty()) return;
+  require(done != nullptr, "the farm's bake", "nobody takes what is done");
+  for (const ProbeStage& stage : stages) {
+    if (stage.probe >= set.probes.size())
+      throw Error("the farm's bake",
+                  fmt::format("there is no probe {} of {}", stage.probe, set.probes.size()));
+  }
   if (set.probes.size() > job_limits::places)
     throw Error("the farm", fmt::format("bakes at most {} probes", job_limits::places));
   ScenePackage package = pack_scene(scene_);

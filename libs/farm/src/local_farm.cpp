@@ -15,6 +15,7 @@
 #include <ssphh/core/error.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/parallel.h>
+#include <ssphh/core/require.h>
 #include <ssphh/farm/local_farm.h>
 
 namespace ssphh::farm {
@@ -48,6 +49,13 @@ pid_t spawn(const fs::path& tool, const std::vector<std::string>& arguments, con
   ::dup2(in, STDIN_FILENO), ::dup2(out, STDOUT_FILENO), ::dup2(out, STDERR_FILENO);
   ::execv(tool.c_str(), argv.data());
   ::_exit(127);
+}
+
+/// Else its processes would end and be started again, with nobody told why.
+void require_program(const fs::path& tool) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(tool, ignored) || ::access(tool.c_str(), X_OK) != 0)
+    throw Error(tool.string(), "is no program: it cannot be started", "name the ssphh tool");
 }
 
 bool ended(pid_t pid) {
@@ -130,6 +138,9 @@ LocalFarm::LocalFarm(LocalFarmOptions options) : impl_(new Impl) {
   Impl& s = *impl_;
   s.options = std::move(options);
   if (s.options.workers < 1 || s.options.workers > 1024) throw Error("--local", "must be 1 to 1024 workers");
+  require(s.options.threads >= 0, "local farm", "workers of fewer than 0 threads");
+  require(s.options.look.count() > 0, "local farm", "it would look at its processes without a pause");
+  require_program(s.options.tool);
   s.folder = temporary_folder();
   s.endpoint = "ipc://" + (s.folder / "broker").string();
   try {

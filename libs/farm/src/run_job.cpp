@@ -71,6 +71,7 @@ TileJobResult run(const TileJob& job, const PreparedScene& scene, const rays::In
 }  // namespace
 
 JobResult run_job(const Job& job, SceneStore& scenes, const FetchChunk& fetch, const Control& control) {
+  validate(job);
   const SceneRef& ref = std::visit([](const auto& j) -> const SceneRef& { return j.scene; }, job);
   const std::shared_ptr<const PreparedScene> scene = scenes.get(ref, fetch, control);
   const std::uint64_t rays_before = scene->tracer->rays_traced();

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <ssphh/core/log.h>
+#include <ssphh/core/require.h>
 #include <ssphh/core/stopwatch.h>
 #include <ssphh/farm/engine.h>
 #include <ssphh/farm/job_codec.h>
@@ -131,6 +132,7 @@ class Pool {
 
 WorkerPoolReport run_workers(const WorkerPoolOptions& options, const Control& control) {
   if (options.slots < 1 || options.slots > 1024) throw Error("slots", "must be 1 to 1024");
+  require(options.idle_exit >= 0, "idle exit", "must be 0 or more seconds");
   Pool pool(options);
   log_info("worker-ready broker={} service={} slots={} cache={}", options.broker.endpoint, job_service(),
            options.slots, options.cache.string());
