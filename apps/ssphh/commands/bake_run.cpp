@@ -116,6 +116,7 @@ json::Value to_json(const BakeResult& r, const BakeOptions& o) {
                         {"links", if_any(network, t.links)},
                         {"iterations", if_any(solved, t.iterations)},
                         {"contraction", if_any(network, t.contraction)},
+                        {"solve_error", if_any(op == probes::LightOperator::surfel, t.error)},
                         {"fitted", r.set.fitted ? r.set.fitted->points.size() : 0},
                         {"fit_seconds", if_any(r.set.fitted.has_value(), t.fit_seconds)},
                         {"records", r.set.surface ? r.set.surface->points.size() : 0},
@@ -146,8 +147,10 @@ std::string to_text(const BakeResult& r, const BakeOptions& o) {
     text += fmt::format("\n{} of {}, {}", counted(t.surfels, "surfel"),
                         sizes_text(t.finest_surfel, t.coarsest_surfel), counted(t.links, "link"));
     if (!path) {
-      text += fmt::format("; {}, a bounce keeps at most {:.3g} of the light; {:.2f} s",
-                          counted(t.iterations, "iteration"), t.contraction, t.seconds);
+      text += fmt::format("; {}, a bounce keeps at most {:.3g} of the light",
+                          counted(t.iterations, "iteration"), t.contraction);
+      if (t.error > 0) text += fmt::format(", {:.2g} % are missing at most", 100 * t.error);
+      text += fmt::format("; {:.2f} s", t.seconds);
     }
   }
   if (r.set.surface && t.record_seconds > 0)
