@@ -233,6 +233,19 @@ std::vector<Contract> of_stores() {
                        farm::run_job(job, scenes, s.fetch());
                      },
                      {"job: probes"}),
+      refuses_stored("RunJob", "OfARendererThatIsNotThere",
+                     [](Store& s) {
+                       farm::SceneStore scenes(s.cache);
+                       farm::ProbeJob job;
+                       job.scene = s.ref(), job.renderer = farm::Renderer::cycles;
+                       job.probes = {0}, job.places.resize(1);
+                       farm::run_job(job, scenes, s.fetch());
+                     },
+                     {"renderer cycles", "not there"}),
+      refuses_work(
+          "ByARendererThatIsNone",
+          [](farm::FarmOptions& o, farm::UnitGroup&) { o.renderer = static_cast<farm::Renderer>(9); },
+          {"none of that number"}),
       refuses_stored("RunJob", "OfProbesWithoutPlaces",
                      [](Store& s) {
                        farm::SceneStore scenes(s.cache);

@@ -30,18 +30,21 @@ std::filesystem::path checkpoint_of(const BakeOptions& o) {
 /// Where nothing is taken from an earlier bake.
 void run_full_bake(const BakeOptions& o, BakeResult& result, BakeWatcher& watcher, const Control& control) {
   const bool by_cycles = o.renderer == Renderer::cycles;
-  if (by_cycles && o.farm.any())
-    throw Error("--renderer cycles", "is not for a farm", "leave out --broker and --local");
-  const std::optional<FarmSession> session = farm_session(o.farm);
+  FarmChoice choice = o.farm;
+  choice.renderer = o.renderer;
+  const std::optional<FarmSession> session = farm_session(choice);
   const scene::Scene scene = load_lit_scene(o.scene, watcher.files);
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
   std::optional<farm::FarmCrew> farm;
   if (session) farm.emplace(session->options(), scene, o.scene.time);
   std::optional<CyclesCrew> cycles;
   pipeline::BakeSettings settings = o;
-  if (by_cycles) {
+  if (by_cycles && !session) {
     cycles.emplace(geometry, scene, o.scene.time,
                    CyclesOptions{o.output + ".cycles", o.threads, std::chrono::seconds(o.time_limit)});
+  }
+  if (by_cycles) {
+    std::filesystem::create_directories(o.output + ".cycles");
     if (!settings.records) settings.records = 0;  // they would hold our light
   }
   const std::filesystem::path checkpoint = checkpoint_of(o);

@@ -30,6 +30,8 @@ class Dispatcher {
       : groups_(groups),
         report_(report),
         finished_(finished),
+        renderer_(options.renderer),
+        service_(job_service(options.renderer)),
         messages_(options.messages),
         patience_(options.patience),
         client_(connect(options.broker)) {
@@ -77,7 +79,7 @@ class Dispatcher {
         keep(job.number, "job", body);
         majordomo::RequestOptions request;
         request.content_key = Hasher().text(body).finish();
-        const RequestId id = client_.submit(job_service(), {std::move(body)}, request);
+        const RequestId id = client_.submit(service_, {std::move(body)}, request);
         sent_.emplace(id, std::move(job));
       }
     }
@@ -119,7 +121,7 @@ class Dispatcher {
       const json::Value stats = json::parse(body[1], where);
       int workers = 0;
       for (const json::Cursor& service : json::elements(json::Cursor(stats, where)["services"])) {
-        if (service.text_or("name") == job_service())
+        if (service.text_or("name") == service_)
           workers = static_cast<int>(service["workers"].integer(0, INT32_MAX));
       }
       workers_ = workers;
@@ -142,7 +144,12 @@ class Dispatcher {
     if (!client_.connected()) {
       log_warning("the broker does not answer yet; still trying");
     } else if (known_ && workers_ == 0) {
-      log_warning("the broker has no worker of this build (engine {}); jobs wait for one", engine_id());
+      const std::string started =
+          renderer_ == Renderer::path
+              ? ""
+              : fmt::format(" that was started with --renderer {}", name_of(renderer_));
+      log_warning("the broker has no worker of this build (engine {}){}; jobs wait for one", engine_id(),
+                  started);
     } else {
       return;
     }
@@ -152,6 +159,8 @@ class Dispatcher {
   const std::vector<UnitGroup>& groups_;
   FarmReport& report_;
   const std::function<void(std::size_t, const FarmReport&)>& finished_;
+  Renderer renderer_;
+  std::string service_;
   std::filesystem::path messages_;
   double patience_;
   majordomo::Client client_;

@@ -50,6 +50,7 @@ trace::RenderState render(const FarmOptions& options, const scene::Scene& scene,
                           const trace::RenderParams& params, const std::optional<RenderProbes>& probes,
                           const std::vector<trace::RenderLayer>& layers, FarmReport& report,
                           const Control& control) {
+  require(options.renderer == Renderer::path, "render", "a farm draws by this program's paths alone");
   require(!probes || probes->set, "render's probes", "there are none");
   // Describe the render and what goes with it.
   ScenePackage package = pack_scene(scene);

@@ -80,9 +80,10 @@ struct LocalFarm::Impl {
     const auto count = static_cast<std::size_t>(options.workers);
     const int threads = options.threads > 0 ? options.threads : std::max(1, thread_count() / options.workers);
     return spawn(options.tool,
-                 {"worker", "--broker", endpoint, "--slots", "1", "--threads", std::to_string(threads),
-                  "--name", fmt::format("local:{}", i % count), "--cache", options.cache.string(),
-                  "--cache-size", std::to_string(std::max<std::uint64_t>(1, options.cache_bytes >> 20))},
+                 {"worker", "--broker", endpoint, "--renderer", std::string(name_of(options.renderer)),
+                  "--slots", "1", "--threads", std::to_string(threads), "--name",
+                  fmt::format("local:{}", i % count), "--cache", options.cache.string(), "--cache-size",
+                  std::to_string(std::max<std::uint64_t>(1, options.cache_bytes >> 20))},
                  folder / fmt::format("worker-{}.log", i));
   }
 
