@@ -21,7 +21,7 @@ using namespace majordomo;
 
 constexpr Millis never = std::numeric_limits<Millis>::max();
 /// Where no broker is.
-const std::string nowhere = "ipc:///tmp/ssphh-no-broker-is-here";
+const std::string no_broker = "ipc:///tmp/ssphh-no-broker-is-here";
 
 Contract refuses_client(const std::string& given, std::function<void(ClientOptions&)> spoil,
                         std::vector<std::string> words) {
@@ -29,7 +29,7 @@ Contract refuses_client(const std::string& given, std::function<void(ClientOptio
       "Client", given,
       [spoil] {
         ClientOptions options;
-        options.endpoint = nowhere;
+        options.endpoint = no_broker;
         spoil(options);
         Client client(options);
       },
@@ -43,7 +43,7 @@ Contract refuses_request(const std::string& entry, const std::string& given,
       entry, given,
       [] {
         ClientOptions options;
-        options.endpoint = nowhere;
+        options.endpoint = no_broker;
         return std::make_unique<Client>(options);
       },
       std::move(call), std::move(words),
@@ -88,7 +88,7 @@ std::vector<Contract> of_clients() {
       gives("Poll", "UntilTheEndOfTime",
             [] {
               ClientOptions options;
-              options.endpoint = nowhere;
+              options.endpoint = no_broker;
               Client client(options);
               RequestOptions soon;
               soon.deadline = 50;
@@ -100,7 +100,7 @@ std::vector<Contract> of_clients() {
       gives("Client", "ThatWasMoved",
             [] {
               ClientOptions options;
-              options.endpoint = nowhere;
+              options.endpoint = no_broker;
               Client first(options), second = std::move(first);
               expect_refusal([&] { first.submit("service", {}); }, {"moved from"});
               expect_refusal([&] { first.call("service", {}); }, {"moved from"});
@@ -120,7 +120,7 @@ Contract refuses_worker(const std::string& given, std::function<void(WorkerOptio
       "Worker", given,
       [spoil] {
         WorkerOptions options;
-        options.endpoint = nowhere, options.service = "service", options.name = "a";
+        options.endpoint = no_broker, options.service = "service", options.name = "a";
         spoil(options);
         Worker worker(options);
       },
@@ -142,7 +142,7 @@ std::vector<Contract> of_workers() {
       refuses("Worker", "WithoutAHandler",
               [] {
                 WorkerOptions options;
-                options.endpoint = nowhere, options.service = "service";
+                options.endpoint = no_broker, options.service = "service";
                 Worker worker(options);
                 worker.stop();
                 worker.run({});
