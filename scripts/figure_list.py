@@ -86,8 +86,12 @@ def figure12(figure, sizes):
         name = f"torch-{time}"
         truth(figure, sizes, "builtin:torch", name, ["--time", time, "--exposure", 0])
         row.append((f"{name}.png", f"{time} s"))
-    figure.panels([row[:2], row[2:]])
-    figure.note("Caustics are not shown: there is no scene of a fish tank yet.")
+    tank = []
+    for time in (0, 1):
+        name = f"fishtank-{time}"
+        truth(figure, sizes, "builtin:fishtank", name, ["--time", time])
+        tank.append((f"{name}.png", f"caustics of a tank at {time} s"))
+    figure.panels([row[:2], row[2:], tank])
 
 
 def figure13(figure, sizes):
@@ -157,7 +161,7 @@ FIGURES = {
     "9": ("Figure 9: hierarchies and previews of SPHLs", "Balls show the radiance of S'_i; what surfaces hide is dimmed.", figure9),
     "10": ("Figure 10: probes rendered elsewhere, sent as JSON", "A worker renders the probes of gallery 1; messages as they were sent.", figure10),
     "11": ("Figure 11: scenes that need indirect light", "What hidden lamps light directly, and all light.", figure11),
-    "12": ("Figure 12: SPHLs as complex emitters", "A vault lit by a torch and by an SPHL that is a fire, path traced at four moments.", figure12),
+    "12": ("Figure 12: SPHLs as complex emitters", "A vault lit by a torch and by an SPHL that is a fire at four moments, and a tank whose waves refract its lamp's light at two, path traced.", figure12),
     "13": ("Figure 13: error of the paper's SSPHH", "SPHLs of depth 3 against path tracing of depth 25.", figure13),
     "14": ("Figure 14: ray depths and passes of a light probe", "The SPHL `middle` of gallery 1 as six faces +X −X +Y −Y +Z −Z.", figure14),
     "15": ("Figure 15: the same as spherical harmonics", "The probes of Figure 14 in degree 10; what is negative is black.", figure15),

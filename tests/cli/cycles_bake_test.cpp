@@ -11,10 +11,12 @@
 #include "commands/bake.h"
 #include "commands/bake_watch.h"
 #include "commands/child_process.h"
+#include "commands/worker.h"
 #include "error_message.h"
 #include "json_text.h"
 #include "stand_in_programs.h"
 #include "temp_dir.h"
+#include "tool.h"
 
 namespace ssphh::app {
 namespace {
@@ -118,15 +120,66 @@ TEST(CyclesBake, FacesBecomeTheLightOfEachGroupTheRightWayRound) {
   EXPECT_EQ(std::ranges::count(calls, '\n'), 4) << "a run for each group, twice";
 }
 
-TEST(CyclesBake, IsForNoFarmNorWatchAndNeedsBlender) {
+TEST(CyclesBake, IsNotForWatchAndNeedsBlender) {
   const TempDir dir;
   BakeOptions options = of_a_box(dir);
-  options.farm.local = 1;
-  EXPECT_THAT(message_of([&] { run_bake(options); }), testing::HasSubstr("is not for a farm"));
-  options.farm = {};
   EXPECT_THAT(message_of([&] { run_bake_watch(options); }), testing::HasSubstr("is not for --watch"));
   const Path path(dir.path().string());
   EXPECT_THAT(message_of([&] { run_bake(options); }), testing::HasSubstr("no `blender`"));
+  WorkerSettings worker;
+  worker.broker.endpoint = "ipc://" + (dir / "broker").string();
+  worker.pool.other.renderer = Renderer::cycles;
+  EXPECT_THAT(message_of([&] { run_worker(worker); }), testing::HasSubstr("no `blender`"));
+}
+
+/// Pictures of Blender's that a script hands out.
+void install_sloped_blender(const TempDir& dir) {
+  install_blender(dir / "bin");
+  for (int k = 0; k < 6; ++k) {
+    const image::Image grey(face, face);
+    image::write_image(dir / fmt::format("bin/emitted{}.exr", k), grey);
+    image::Image slope(face, face);
+    for (int y = 0; y < face; ++y)
+      for (int x = 0; x < face; ++x)
+        slope.set_rgb(x, y, vec3(static_cast<float>(x + 7 * k), static_cast<float>(y), 3));
+    image::write_image(dir / fmt::format("bin/reflected{}.exr", k), slope);
+  }
+}
+
+TEST(CyclesBake, AFarmsWorkersThatHaveItGiveTheBitsOfALocalOne) {
+  const TempDir dir;
+  install_sloped_blender(dir);
+  const Path path((dir / "bin").string() + ":/usr/bin:/bin");
+  BakeOptions options = of_a_box(dir);
+  const probes::ProbeSet here = run_bake(options).set;
+  options.farm.local = 1, options.farm.cache = "none", options.farm.tool = test::tool_path();
+  const BakeResult there = run_bake(options);
+  EXPECT_EQ(there.set, here);
+  EXPECT_EQ(there.farm->units, 1u);
+  EXPECT_EQ(there.farm->cached, 0u);
+}
+
+TEST(CyclesBake, AFarmWithoutSuchAWorkerSaysSo) {
+  const TempDir dir;
+  install_sloped_blender(dir);
+  const Path path((dir / "bin").string() + ":/usr/bin:/bin");
+  const std::string endpoint = "ipc://" + (dir / "broker").string();
+  test::ToolProcess broker({"broker", "--bind", endpoint}),
+      ours({"worker", "--broker", endpoint, "--cache", (dir / "cache").string()});
+  EXPECT_TRUE(ours.wait_for_stderr("worker-ready"));
+  of_a_box(dir);
+  test::ToolProcess bake({"bake", (dir / "box.ssphh.json").string(), "--renderer", "cycles", "--viz", "off",
+                          "--face", "16", "--spp", "4", "--broker", endpoint, "--cache", "none", "-o",
+                          (dir / "box.sphl").string()});
+  EXPECT_TRUE(bake.wait_for_stderr("that was started with --renderer cycles"));
+  test::ToolProcess theirs(
+      {"worker", "--broker", endpoint, "--renderer", "cycles", "--cache", (dir / "cache2").string()});
+  const test::ToolResult done = bake.wait();
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  for (test::ToolProcess* process : {&theirs, &ours, &broker}) {
+    process->signal(SIGKILL);
+    process->wait();
+  }
 }
 
 /// Σ |a − b|² over all probes' reflected light.

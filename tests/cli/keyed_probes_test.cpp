@@ -70,7 +70,7 @@ TEST_F(KeyedProbes, OfOtherPlacesAreRefused) {
 TEST(KeyedRelight, KeysAreSavedWithTheirRecordsAndPlayed) {
   const test::TempDir dir;
   run_here({"relight", "builtin:two-rooms", "--probes", "6", "--degree", "2", "--directions", "64",
-            "--surfel-size", "0.5", "--frames", "3", "--points", "16", "--keys", "3", "--save",
+            "--surfel-size", "0.5", "--frames", "3", "--points", "16", "--key-frames", "3", "--save",
             dir / "door.sphl"});
   const std::string shut = dir / "door-0.sphl", open = dir / "door-2.sphl", half = dir / "half.sphl";
   const json::Value blended = json_here({"probe", "blend", shut, open, "-o", half});
@@ -87,7 +87,7 @@ TEST(KeyedRelight, MoreKeysAreNearerToExactPosing) {
   const auto error = [](const char* keys) {
     const json::Value run = json_here({"relight", "builtin:two-rooms", "--probes", "6", "--degree", "2",
                                        "--directions", "64", "--surfel-size", "0.8", "--link-rays", "16",
-                                       "--frames", "5", "--points", "128", "--keys", keys});
+                                       "--frames", "5", "--points", "128", "--key-frames", keys});
     EXPECT_EQ(run["keyed"]["frames"].size(), 5U);
     EXPECT_LT(run["keyed"]["frames"][0]["mean_error"].number(), 1e-3) << "a key is exact";
     EXPECT_LT(run["keyed"]["frames"][4]["mean_error"].number(), 1e-3);
@@ -96,7 +96,7 @@ TEST(KeyedRelight, MoreKeysAreNearerToExactPosing) {
   const double two = error("2"), three = error("3"), five = error("5");
   EXPECT_GT(two, 2 * three) << "a quarter where light is smooth";
   EXPECT_LT(five, 1e-3);
-  EXPECT_THAT(problem_here({"relight", "builtin:two-rooms", "--probes", "6", "--keys", "1"}),
+  EXPECT_THAT(problem_here({"relight", "builtin:two-rooms", "--probes", "6", "--key-frames", "1"}),
               HasSubstr("one key is no motion"));
 }
 

@@ -183,8 +183,9 @@ TEST(Texts, OfBakes) {
   EXPECT_THAT(
       text_here(transport),
       MatchesRegex(pattern(fmt::format(
-          "{}\n{} surfels of 0.5 m, {} links; {} iterations, a bounce keeps at most {:.3g} of the light; "
-          "@ s\nlight kept at {} surface points in @ s\nweights fitted at {} points in @ s\nVIZ from links @ "
+          "{}\n{} surfels of 0.5 m, {} links; {} iterations, a bounce keeps at most {:.3g} of the light, "
+          "@ % are missing at most; @ s\nlight kept at {} surface points in @ s\nweights fitted at {} points "
+          "in @ s\nVIZ from links @ "
           "s\n{} rays",
           head, print(solved["surfels"]), print(solved["links"]), print(solved["iterations"]),
           number(solved, "contraction"), print(solved["records"]), print(solved["fitted"]),

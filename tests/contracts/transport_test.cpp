@@ -3,6 +3,7 @@
 #include <ssphh/bake/light_modes.h>
 #include <ssphh/bake/transport_bake.h>
 #include <ssphh/bake/update.h>
+#include <ssphh/geometry/delaunay.h>
 #include <ssphh/probes/candidate_grid.h>
 #include <ssphh/probes/surface_interpolation.h>
 #include <ssphh/probes/surface_lists.h>
@@ -168,12 +169,78 @@ std::vector<Contract> of_grids() {
               {"other probes"}),
       refuses("SurfaceReach", "OfNoSpacings",
               [] { probes::surface_reach(std::vector<rays::SurfacePoint>(2), {}); }, {"one spacing"}),
+      refuses("SurfaceCover", "WithoutSight", [] { probes::surface_cover({}, 1, nullptr); },
+              {"surface points", "sees"}),
+      refuses("SeeAlongSurface", "WithoutSight", [] { probes::see_along_surface({}, {}, 1, nullptr); },
+              {"surface points", "sees"}),
+      refuses("Delaunay", "OfNoPoints", [] { geometry::delaunay({}); }, {"Delaunay", "plane"}),
+      refuses("Delaunay", "OfPointsInAPlane",
+              [] {
+                const std::vector<geometry::LatticePoint> flat{
+                    {0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {4, 4, 0}, {2, 1, 0}};
+                geometry::delaunay(flat);
+              },
+              {"Delaunay", "plane"}),
+      refuses("Delaunay", "OfAPointTwice",
+              [] {
+                const std::vector<geometry::LatticePoint> twice{
+                    {0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {4, 0, 0}};
+                geometry::delaunay(twice);
+              },
+              {"Delaunay", "twice"}),
       refuses("PrepareSurfaces", "WithoutSight",
               [] { probes::prepare_surfaces(sound_scene(), 0, std::vector<rays::SurfacePoint>(2), {}); },
               {"sees"}),
   };
 }
 
+/// A bake of the sound set with parameters that their types allow.
+Contract refuses_bake(const std::string& given, std::function<void(bake::TransportBakeParams&)> spoil,
+                      std::vector<std::string> words) {
+  return refuses(
+      "BakeTransport", given,
+      [spoil] {
+        const trace::TransportScene source(scene_of_networks());
+        bake::TransportBakeParams params;
+        params.transport = {.directions = 32, .surfel_size = 0.5f, .link_rays = 8, .samples = 2};
+        spoil(params);
+        bake::TransportBakeReport report;
+        bake::bake_transport(source, sound_set(), params, report);
+      },
+      std::move(words));
+}
+
+std::vector<Contract> of_bakes() {
+  return {
+      refuses_bake("OfAnOperatorThatIsNone",
+                   [](auto& params) { params.op = static_cast<probes::LightOperator>(9); },
+                   {"light operator"}),
+      refuses_bake("OfASourceThatIsNone",
+                   [](auto& params) {
+                     params.viz = true;
+                     params.viz_params.source = static_cast<probes::VizSource>(9);
+                   },
+                   {"VIZ"}),
+      refuses_bake("OfWeightsThatAreNone",
+                   [](auto& params) {
+                     params.op = probes::LightOperator::bounce;
+                     params.bounce.weights.method = static_cast<probes::WeightMethod>(99);
+                   },
+                   {"weights"}),
+      refuses_bake("OfAToleranceThatIsNone", [](auto& params) { params.solve.tolerance = nan; },
+                   {"solver", "tolerance"}),
+      refuses_bake("OfMinusOneIterations", [](auto& params) { params.solve.max_iterations = -1; },
+                   {"solver", "iterations"}),
+      refuses_bake("OfBouncesWithoutTolerance",
+                   [](auto& params) {
+                     params.op = probes::LightOperator::bounce;
+                     params.bounce.tolerance = nan;
+                   },
+                   {"bounce", "tolerance"}),
+  };
+}
+
+SSPHH_CONTRACTS(TransportBake, of_bakes());
 SSPHH_CONTRACTS(Network, of_networks());
 SSPHH_CONTRACTS(Update, of_updates());
 SSPHH_CONTRACTS(Grid, of_grids());

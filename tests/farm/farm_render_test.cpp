@@ -1,3 +1,6 @@
+#include <chrono>
+#include <thread>
+
 #include "farm_process.h"
 
 namespace ssphh::test {
@@ -41,6 +44,38 @@ TEST(FarmRender, PicturesLitByProbesHaveTheBitsOfALocalRender) {
   far.insert(far.end(), {"-o", (dir / "far.exr").string(), "--broker", farm.endpoint(), "--cache", "none"});
   run_json(local), run_json(far);
   EXPECT_EQ(read_file(dir / "local.exr"), read_file(dir / "far.exr"));
+}
+
+TEST(FarmRelight, FramesHaveTheBitsOfALocalRunThoughAWorkerDies) {
+  const TempDir dir;
+  const std::vector<std::string> common = {"relight",       "builtin:two-rooms",
+                                           "--probes",      "6",
+                                           "--degree",      "2",
+                                           "--directions",  "64",
+                                           "--surfel-size", "0.8",
+                                           "--link-rays",   "16",
+                                           "--frames",      "2",
+                                           "--format",      "exr",
+                                           "--width",       "96",
+                                           "--height",      "64",
+                                           "--spp",         "64"};
+  const json::Value local = run_json(joined(common, {"-o", (dir / "local").string()}));
+  EXPECT_FALSE(local.contains("farm"));
+  FarmProcesses farm(2);
+  ToolProcess process(joined(
+      common, {"-o", (dir / "far").string(), "--broker", farm.endpoint(), "--cache", "none", "--json"}));
+  ASSERT_TRUE(farm.worker(0).wait_for_stderr("kind=ref"));
+  farm.worker(0).signal(SIGSTOP);  // the broker gives it another job
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  farm.worker(0).signal(SIGKILL);
+  const ToolResult result = process.wait();
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json::Value far = json::parse(result.out, "relight");
+  EXPECT_EQ(far["farm"]["units"], 2 * 3 * 2) << "tiles of 32 pixels";
+  EXPECT_GE(far["farm"]["retries"].number(), 1);
+  for (const char* name : {"frame-0000.exr", "frame-0001.exr"})
+    EXPECT_EQ(read_file(dir / "local" / name), read_file(dir / "far" / name)) << name;
+  expect_failure(joined(common, {"--broker", farm.endpoint()}), "none are asked for");
 }
 
 TEST(FarmCommand, StatusDrainAndKeys) {

@@ -15,7 +15,9 @@
 #include <ssphh/sh/irradiance.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
+#include <ssphh/transport/solve.h>
 
+#include "error_message.h"
 #include "transport_baked.h"
 #include "transport_fixtures.h"
 
@@ -232,19 +234,37 @@ TEST(GiTransportBake, WarningsCountTheProbesAndNameTheFirstFive) {
   EXPECT_THAT(report_of(dark, {}).warnings, testing::ElementsAre("6" + four.substr(1) + ", \"fifth\", ..."));
 }
 
-TEST(GiTransportBake, LightThatDidNotConvergeIsToldWithItsIterations) {
+TEST(GiTransportBake, LightThatDoesNotConvergeIsAnErrorWithItsBounces) {
   bake::TransportBakeParams params;
   params.solve = {1e-9f, 2};
-  const bake::TransportBakeReport surfel = report_of(test::coloured_room(vec3(1)), params);
-  EXPECT_EQ(surfel.iterations, 2);
-  EXPECT_THAT(surfel.warnings, testing::ElementsAre(testing::HasSubstr("did not converge in 2 iterations")));
+  const auto message = [&] {
+    return test::message_of([&] { report_of(test::coloured_room(vec3(1)), params); });
+  };
+  EXPECT_THAT(message(), testing::StartsWith("light of surfels: did not converge in 2 bounces"));
   params.op = probes::LightOperator::bounce;
   params.bounce.max_iterations = 3, params.bounce.tolerance = 1e-9f;
-  const bake::TransportBakeReport bounce = report_of(test::coloured_room(vec3(1)), params);
-  EXPECT_EQ(bounce.iterations, 3);
-  EXPECT_THAT(bounce.warnings, testing::ElementsAre(testing::HasSubstr("did not converge in 3 iterations")));
-  EXPECT_GT(bounce.contraction, 0.1);
-  EXPECT_LT(bounce.contraction, 0.8) << "of the brightest wall";
+  EXPECT_THAT(message(), testing::StartsWith("light between the probes: did not converge in 3 bounces"));
+  params.bounce = {};
+  const double kept = report_of(test::coloured_room(vec3(1)), params).contraction;
+  EXPECT_GT(kept, 0.1);
+  EXPECT_LT(kept, 0.8) << "of the brightest wall";
+}
+
+TEST(GiTransportBake, WhiteRoomsHaveTheLightOfAllBounces) {
+  // Emission 1 everywhere: Σ ρᵏ = ρ / (1 − ρ) is reflected; no surface reflects more than 0.999.
+  for (const float albedo : {0.995f, 0.999f, 1.0f}) {
+    scene::Scene box = scene::make_builtin("box");
+    for (scene::Material& material : box.materials) material.base_color = vec3(albedo);
+    bake::TransportBakeParams params;
+    params.transport.directions = 64, params.transport.surfel_size = 0.4f;
+    const TransportBaked baked = transport_baked(box, 1, params);
+    const double kept = double(std::min(albedo, transport::most_albedo)), all = kept / (1 - kept);
+    for (const probes::Probe& probe : baked.set.probes)
+      EXPECT_NEAR(double(sh::mean(probe.groups[0].reflected).y), all, 2e-2 * all)
+          << albedo << " " << probe.name;
+    EXPECT_LE(baked.report.error, 1e-3f);
+    EXPECT_LT(baked.report.iterations, 1500);
+  }
 }
 
 /// A body whose slats stand closer to each other than light is looked for before a surface of it.

@@ -25,9 +25,9 @@ class Figures(unittest.TestCase):
 
     def test_pages_need_nothing_else_and_command_lines_are_those_that_ran(self):
         with tempfile.TemporaryDirectory() as folder:
-            run = figures(folder, "3", "11", "15")
+            run = figures(folder, "3", "11", "12", "15")
             self.assertEqual(run.returncode, 0, run.stderr)
-            for name, panels, commands in (("3", 2, 4), ("11", 4, 4), ("15", 12, 36)):
+            for name, panels, commands in (("3", 2, 4), ("11", 4, 4), ("12", 6, 6), ("15", 12, 36)):
                 here = pathlib.Path(folder) / name
                 page = (here / "index.html").read_text()
                 self.assertEqual(page.count('src="data:image/png;base64,'), panels, name)

@@ -28,7 +28,7 @@ struct BakeOptions : pipeline::BakeSettings {
   PlaceOptions place;
   FarmChoice farm;     ///< that does GEN and VIZ by paths, if there is any
   std::string output;  ///< probe file to write: .sphl or .sphl.json; OUTPUT.checkpoint beside it
-  Renderer renderer = Renderer::path;  ///< that does GEN and VIZ by paths; Cycles: without a farm
+  Renderer renderer = Renderer::path;  ///< that does GEN and VIZ by paths
   int threads = 0;                     ///< of Cycles; 0: all
   int time_limit = 3600;               ///< seconds that each run of Cycles may take
   bool resume = true;                  ///< go on where OUTPUT.checkpoint of an interrupted bake ends

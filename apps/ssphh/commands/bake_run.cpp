@@ -30,18 +30,21 @@ std::filesystem::path checkpoint_of(const BakeOptions& o) {
 /// Where nothing is taken from an earlier bake.
 void run_full_bake(const BakeOptions& o, BakeResult& result, BakeWatcher& watcher, const Control& control) {
   const bool by_cycles = o.renderer == Renderer::cycles;
-  if (by_cycles && o.farm.any())
-    throw Error("--renderer cycles", "is not for a farm", "leave out --broker and --local");
-  const std::optional<FarmSession> session = farm_session(o.farm);
+  FarmChoice choice = o.farm;
+  choice.renderer = o.renderer;
+  const std::optional<FarmSession> session = farm_session(choice);
   const scene::Scene scene = load_lit_scene(o.scene, watcher.files);
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
   std::optional<farm::FarmCrew> farm;
   if (session) farm.emplace(session->options(), scene, o.scene.time);
   std::optional<CyclesCrew> cycles;
   pipeline::BakeSettings settings = o;
-  if (by_cycles) {
+  if (by_cycles && !session) {
     cycles.emplace(geometry, scene, o.scene.time,
                    CyclesOptions{o.output + ".cycles", o.threads, std::chrono::seconds(o.time_limit)});
+  }
+  if (by_cycles) {
+    std::filesystem::create_directories(o.output + ".cycles");
     if (!settings.records) settings.records = 0;  // they would hold our light
   }
   const std::filesystem::path checkpoint = checkpoint_of(o);
@@ -116,6 +119,7 @@ json::Value to_json(const BakeResult& r, const BakeOptions& o) {
                         {"links", if_any(network, t.links)},
                         {"iterations", if_any(solved, t.iterations)},
                         {"contraction", if_any(network, t.contraction)},
+                        {"solve_error", if_any(op == probes::LightOperator::surfel, t.error)},
                         {"fitted", r.set.fitted ? r.set.fitted->points.size() : 0},
                         {"fit_seconds", if_any(r.set.fitted.has_value(), t.fit_seconds)},
                         {"records", r.set.surface ? r.set.surface->points.size() : 0},
@@ -146,8 +150,10 @@ std::string to_text(const BakeResult& r, const BakeOptions& o) {
     text += fmt::format("\n{} of {}, {}", counted(t.surfels, "surfel"),
                         sizes_text(t.finest_surfel, t.coarsest_surfel), counted(t.links, "link"));
     if (!path) {
-      text += fmt::format("; {}, a bounce keeps at most {:.3g} of the light; {:.2f} s",
-                          counted(t.iterations, "iteration"), t.contraction, t.seconds);
+      text += fmt::format("; {}, a bounce keeps at most {:.3g} of the light",
+                          counted(t.iterations, "iteration"), t.contraction);
+      if (t.error > 0) text += fmt::format(", {:.2g} % are missing at most", 100 * t.error);
+      text += fmt::format("; {:.2f} s", t.seconds);
     }
   }
   if (r.set.surface && t.record_seconds > 0)

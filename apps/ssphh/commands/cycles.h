@@ -10,18 +10,14 @@
 #include <ssphh/bake/bake.h>
 #include <ssphh/core/control.h>
 #include <ssphh/core/enum_names.h>
+#include <ssphh/farm/job.h>
 #include <ssphh/rays/radiance_source.h>
 #include <ssphh/scene/scene.h>
 #include <ssphh/trace/path_tracer.h>
 
 namespace ssphh::app {
 
-/// Our path tracer, or Blender's.
-enum class Renderer { path, cycles };
-constexpr auto enum_table(Renderer) {
-  using enum Renderer;
-  return std::to_array<EnumName<Renderer>>({{path, "path"}, {cycles, "cycles"}});
-}
+using farm::Renderer;
 
 struct CyclesOptions {
   std::filesystem::path work;        ///< folder of exported scenes, pictures and Blender's log

@@ -27,7 +27,7 @@ void add_transport_options(const Command& transport, RelightOptions& o) {
               "Blend doors and the like between so many poses found beforehand, 2 or more; 0: pose exactly")
       .range(0, 1 << 16);
   transport
-      .option("--keys", o.keys,
+      .option("--key-frames", o.key_frames,
               "Blend the light of all frames between so many moments of the run, 2 or more, as a game plays "
               "keyed "
               "bakes, and tell its error against exact posing; 0: every frame has its own")
@@ -62,9 +62,9 @@ void add_output_options(const Command& output, RelightOptions& o) {
   output.option("--spp", o.spp, "Samples per pixel").range(1, 65536);
   add_exposure_option(output, o.exposure,
                       "Of .png frames, in stops; auto: what suits the first that is not black");
-  add_probe_file(
-      output, "--save", o.save,
-      "Write the probes of the last frame here; with --keys those of every key, numbered: door-0.sphl ...");
+  add_probe_file(output, "--save", o.save,
+                 "Write the probes of the last frame here; with --key-frames those of every key, numbered: "
+                 "door-0.sphl ...");
 }
 
 }  // namespace
@@ -82,7 +82,10 @@ void add_relight_command(Command app, Context& context) {
   add_transport_options(command.under("Transport"), o);
   add_truth_options(command.under("Truth"), o);
   add_output_options(command.under("Output"), o);
-  command.footer("Frames are timed first, one after the other; truth, pictures and --save come after.");
+  add_farm_options(command, o.farm);
+  command.footer(
+      "Frames are timed first, one after the other; truth, pictures and --save come after. A "
+      "farm draws the pictures; light is found by this process.");
 }
 
 }  // namespace ssphh::app

@@ -8,6 +8,7 @@
 #include <ssphh/core/counted.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/stopwatch.h>
+#include <ssphh/farm/farm_render.h>
 #include <ssphh/pipeline/relit.h>
 #include <ssphh/probes/blend.h>
 #include <ssphh/probes/lookup.h>
@@ -88,7 +89,10 @@ class Relighting {
         geometry_(std::make_shared<const trace::SceneGeometry>(scene_)),
         source_(geometry_, scene_),
         animation_(source_, scene_, options.scene.time, moves_),
-        exposure_(options.exposure) {}
+        exposure_(options.exposure),
+        farm_(farm_session(options.farm)) {
+    if (farm_) drawn_by_.emplace();
+  }
 
   RelightResult run() {
     run_.frames_asked = o_.frames;
@@ -102,16 +106,16 @@ class Relighting {
     const Stopwatch watch;
     transport::RelightParams params = o_.params;
     if (o_.weights == probes::WeightMethod::surface &&
-        (o_.truth > 0 || o_.keys > 0 || !o_.output.empty() || !o_.save.empty()))
+        (o_.truth > 0 || o_.key_frames > 0 || !o_.output.empty() || !o_.save.empty()))
       params.records.points = transport::usual_records;
     transport::RelightSession session(source_, std::move(places), params, animation_.frame(0).time, control_);
     run_.build_ms = 1e3 * watch.seconds();
     warn_about_network(session);
     try {
-      if (o_.keys > 0) find_keys(session);
+      if (o_.key_frames > 0) find_keys(session);
       play(session);
-      if (o_.keys > 0) compare_keys(session);
-      if (!o_.save.empty() && o_.keys == 0) save(session, o_.save);
+      if (o_.key_frames > 0) compare_keys(session);
+      if (!o_.save.empty() && o_.key_frames == 0) save(session, o_.save);
       look_back(session);
     } catch (const Cancelled&) {
       if (run_.updates.empty()) throw;
@@ -128,7 +132,8 @@ class Relighting {
             network.params().surfel_size,
             shown_at_,
             saved_,
-            builds_.count()};
+            builds_.count(),
+            drawn_by_};
   }
 
  private:
@@ -168,13 +173,13 @@ class Relighting {
   /// The light of so many moments, evenly spaced over the run.
   void find_keys(transport::RelightSession& session) {
     const Stopwatch watch;
-    for (int k = 0; k < o_.keys; ++k) {
-      const float u = static_cast<float>(k) / static_cast<float>(o_.keys - 1);
+    for (int k = 0; k < o_.key_frames; ++k) {
+      const float u = static_cast<float>(k) / static_cast<float>(o_.key_frames - 1);
       session.update(animation_.frame(u), control_);
       keys_.push_back({u, transport::lookup_set(session)});
       if (!o_.save.empty()) save(session, key_file(o_.save, k));
     }
-    run_.keyed.keys = o_.keys;
+    run_.keyed.keys = o_.key_frames;
     run_.keyed.find_ms = 1e3 * watch.seconds();
   }
 
@@ -279,7 +284,13 @@ class Relighting {
     params.projection = projection_of(PictureProjection::camera, params.camera.camera);
     params.path = {.max_depth = rays::usual_max_depth, .passes = 1, .spp = o_.spp, .seed = o_.seed};
     trace::RenderState state;
-    tracer.render_with(lookup, params, state, control);
+    if (farm_) {
+      const farm::RenderProbes probes{&kept.light, {.weights = o_.weights}};
+      state = farm::render(farm_->options(), lit, kept.state.time, params, probes,
+                           {trace::RenderLayer::color}, *drawn_by_, control);
+    } else {
+      tracer.render_with(lookup, params, state, control);
+    }
     const image::Image picture = trace::resolve(state.color, state.passes_done);
     const fs::path path = fs::path(o_.output) / fmt::format("frame-{:04}.{}", kept.frame, name_of(o_.format));
     if (is_display_format(path)) shown_at_ = exposure_.of(picture);
@@ -301,6 +312,8 @@ class Relighting {
   SharedExposure exposure_;
   std::optional<float> shown_at_;  ///< EV of the frames that were written
   bool saved_ = false;
+  std::optional<FarmSession> farm_;
+  std::optional<farm::FarmReport> drawn_by_;
 };
 
 }  // namespace
@@ -309,9 +322,12 @@ RelightResult run_relight(const RelightOptions& options, const Control& control)
   if (options.frames < 1) throw Error("relight", "needs a frame");
   if (options.params.op == probes::LightOperator::bounce && options.params.poses != 0)
     throw Error("--poses", "is of --operator surfel");
-  if (options.keys == 1) throw Error("--keys", "one key is no motion", "give 2 or more");
-  if (options.keys > 0 && options.weights == probes::WeightMethod::fitted)
-    throw Error("--keys", "blends light, not fitted weights", "choose other --weights");
+  if (options.key_frames == 1) throw Error("--key-frames", "one key is no motion", "give 2 or more");
+  if (options.key_frames > 0 && options.weights == probes::WeightMethod::fitted)
+    throw Error("--key-frames", "blends light, not fitted weights", "choose other --weights");
+  if (options.farm.any() && (options.output.empty() || options.pictures == 0))
+    throw Error("--broker, --local", "a farm draws the pictures of relight, and none are asked for",
+                "give a folder with -o, or leave them out");
   if (!options.output.empty()) {
     std::error_code error;
     fs::create_directories(options.output, error);
@@ -336,6 +352,7 @@ json::Value to_json(const RelightResult& result, const RelightOptions& options) 
   object["geometry_builds"] = result.geometry_builds;
   if (result.exposure) object["exposure"] = *result.exposure;
   if (result.saved) object["saved"] = options.save;
+  if (result.farm) object["farm"] = farm_json(*result.farm);
   return object;
 }
 
@@ -344,6 +361,7 @@ std::string to_text(const RelightResult& result, const RelightOptions&) {
                                  counted(result.surfels, "surfel"), result.surfel_size,
                                  counted(result.links, "link"), relight_text(result.run));
   if (result.exposure) text += "\nframes at " + exposure_text(*result.exposure);
+  if (result.farm) text += "\n" + farm_text(*result.farm);
   return text;
 }
 

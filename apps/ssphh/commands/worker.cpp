@@ -1,6 +1,10 @@
 #include "commands/worker.h"
 
+#include <atomic>
+#include <memory>
+
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <ssphh/core/counted.h>
 #include <ssphh/core/log.h>
@@ -8,9 +12,34 @@
 #include <ssphh/farm/disk_cache.h>
 
 #include "commands/command.h"
+#include "commands/cycles.h"
 
 namespace ssphh::app {
 namespace {
+
+/// Cycles in a folder of its own, which goes with it.
+class CyclesInItsFolder : public CyclesSource {
+ public:
+  CyclesInItsFolder(const farm::PreparedScene& scene, float time, const CyclesOptions& options)
+      : CyclesSource(scene.scene, time, *scene.tracer, options), folder_(options.work) {}
+  ~CyclesInItsFolder() override {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+/// Several jobs at a time have a folder each within the cache's.
+farm::MakeSource cycles_in(const std::filesystem::path& cache) {
+  require_blender();
+  return
+      [cache, number = std::make_shared<std::atomic<int>>(0)](const farm::PreparedScene& scene, float time) {
+        const std::filesystem::path work = cache / fmt::format("cycles-{}-{}", ::getpid(), ++*number);
+        return std::make_unique<CyclesInItsFolder>(scene, time, CyclesOptions{work, thread_count()});
+      };
+}
 
 /// For schedulers: this worker would fail again in the same way.
 constexpr int never_retry = 42;
@@ -28,7 +57,8 @@ void work(Context& context, WorkerSettings& settings) {
 }  // namespace
 
 farm::WorkerPoolReport run_worker(const WorkerSettings& settings, const Control& control) {
-  const farm::WorkerPoolOptions options = pool_options(settings);
+  farm::WorkerPoolOptions options = pool_options(settings);
+  if (options.other.renderer == Renderer::cycles) options.other.make = cycles_in(options.cache);
   set_thread_count(settings.threads);
   set_thread_count(shared_threads(thread_count(), options.slots));
   return farm::run_workers(options, control);
@@ -50,6 +80,10 @@ void add_worker_command(Command app, Context& context) {
   const Command worker = command.under("Worker");
   add_required_broker(worker, o.broker, "worker");
   worker.option("--slots", o.pool.slots, "Jobs at a time; they share the scene and --threads").range(1, 1024);
+  worker.choice(
+      "--renderer", o.pool.other.renderer,
+      "Whose paths it has: path, this program's; cycles, those of Blender, which must be installed, "
+      "for `bake --renderer cycles` alone");
   worker.option("--name", o.pool.name, "In logs and `farm status`; default: HOST:PID");
   worker.option("--cache", o.cache,
                 "Folder of scenes, shared by workers of one machine; default: " +

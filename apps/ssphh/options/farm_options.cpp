@@ -50,12 +50,14 @@ FarmSession::FarmSession(const FarmChoice& choice) {
     farm::LocalFarmOptions local;
     local.tool = choice.tool;
     local.workers = choice.local;
+    local.renderer = choice.renderer;
     local.cache = farm::default_cache_dir("scenes");
     local_ = std::make_unique<farm::LocalFarm>(local);
     options_.broker = local_->address();
   } else {
     options_.broker = broker_address(choice.broker);
   }
+  options_.renderer = choice.renderer;
   options_.messages = choice.messages;
   if (!choice.messages.empty()) options_.content = farm::ContentType::json;
   if (const std::optional<ResultCache> cache = result_cache(choice)) {

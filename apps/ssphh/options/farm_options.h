@@ -31,7 +31,8 @@ struct FarmChoice {
   std::string cache;  ///< of results; "none": none
   std::uint64_t cache_mb = 4096;
   std::string messages;  ///< folder in which jobs and results are kept, sent as JSON; empty: none
-  std::string tool = "/proc/self/exe";  ///< program `ssphh`, which `local` starts
+  farm::Renderer renderer = farm::Renderer::path;  ///< that its workers are to have
+  std::string tool = "/proc/self/exe";             ///< program `ssphh`, which `local` starts
 
   bool any() const { return local > 0 || !broker.endpoint.empty(); }
 };

@@ -10,6 +10,7 @@
 #include "error_message.h"
 #include "gl_stage.h"
 #include "panel_stage.h"
+#include "script_player.h"
 
 namespace ssphh::viewer {
 namespace {
@@ -120,6 +121,19 @@ TEST_F(FarmBakes, GoOnHereWhereTheBrokerIsLost) {
   finish_work();
   EXPECT_EQ(app().message, "GEN is done");
   EXPECT_FALSE(app().farm->used);
+}
+
+TEST_F(FarmBakes, EndAScriptThatWaitsForThemWhereTheBrokerIsLost) {
+  ASSERT_TRUE(turns_until([&] { return app().farm->figures().has_value(); }));
+  ScriptPlayer player(parse_script("gen\nsettle", "script"));
+  for (int i = 0; i < 3; ++i) player.next(app());
+  EXPECT_TRUE(farm_.comes_to(true));
+  EXPECT_NO_THROW(player.next(app())) << "there it is still waited for";
+  farm_.broker.reset();
+  ASSERT_TRUE(turns_until([&] { return app().farm->lost(); }));
+  EXPECT_EQ(test::message_of([&] { player.next(app()); }),
+            "script: line 2: the bake waits for " + farm_.options.broker.endpoint +
+                ", whose broker does not answer (start it again, or leave out --broker)");
 }
 
 TEST_F(FarmBakes, StandInThePanelWithTheWorkersThatDoThem) {

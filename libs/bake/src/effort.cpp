@@ -1,10 +1,12 @@
 #include <algorithm>
 
 #include <ssphh/bake/effort.h>
+#include <ssphh/core/require_named.h>
 
 namespace ssphh::bake {
 
 Effort effort_of(Quality quality) {
+  require_named("quality of a bake", quality);
   switch (quality) {
     case Quality::draft:
       return {.spp = 4,

@@ -8,6 +8,7 @@
 #include <ssphh/core/counted.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/require.h>
+#include <ssphh/core/require_named.h>
 #include <ssphh/core/stopwatch.h>
 #include <ssphh/probes/probe_file.h>
 #include <ssphh/transport/session_sets.h>
@@ -55,7 +56,7 @@ void warn_of(const std::vector<std::string>& names, std::string_view of_one, std
                                         names.size() > most ? ", ..." : ""));
 }
 
-void check_light(const transport::TransportNetwork& network, const probes::ProbeSet& set, bool converged,
+void check_light(const transport::TransportNetwork& network, const probes::ProbeSet& set,
                  TransportBakeReport& report) {
   std::vector<std::string> inside, dark;
   for (std::size_t i = 0; i < set.probes.size(); ++i) {
@@ -76,10 +77,15 @@ void check_light(const transport::TransportNetwork& network, const probes::Probe
         "smaller surfels may find the places",
         100 * report.lost));
   }
-  if (!converged) {
-    report.warnings.push_back(fmt::format(
-        "the light did not converge in {} iterations: surfaces reflect nearly all of it", report.iterations));
-  }
+}
+
+/// Light that is known in part is no light to keep.
+void require_converged(const transport::SolveReport& solved) {
+  if (solved.converged) return;
+  throw Error("light of surfels",
+              fmt::format("did not converge in {} bounces: {:.2g} of it may be missing", solved.iterations,
+                          solved.error),
+              "allow more of them, or a larger tolerance");
 }
 
 /// At the surfels, in the session's pose, to its lights and to training lights.
@@ -130,14 +136,18 @@ void find_edges(const transport::TransportNetwork& network, const rays::Transpor
 std::vector<std::vector<sh::RadianceSh>> bounce_by_group(const transport::RelightSession& session,
                                                          const rays::TransportSource& source,
                                                          const TransportBakeParams& params, int degree,
-                                                         TransportBakeReport& report, bool& converged) {
+                                                         TransportBakeReport& report) {
   transport::BounceOperator bounce(session.network(), source, degree, params.bounce);
   std::vector<std::vector<sh::RadianceSh>> reflected;
   for (const std::vector<transport::Irradiance4>& direct : session.direct_by_group()) {
     const transport::BounceReport done = bounce.solve(direct, reflected.emplace_back());
     report.iterations = std::max(report.iterations, done.iterations);
     report.contraction = std::max(report.contraction, done.contraction);
-    converged = converged && done.converged;
+    if (!done.converged) {
+      throw Error("light between the probes",
+                  fmt::format("did not converge in {} bounces: each adds to what it gets", done.iterations),
+                  "place more probes, or bake with --operator surfel");
+    }
   }
   return reflected;
 }
@@ -158,21 +168,22 @@ class LitSession {
         degree_(set.degree),
         session_(source, scene::places_of(set.probes), relight_params(set, params), set.generator.time,
                  control) {
-    session_.update(session_.lighting(), control);
+    const transport::RelightReport done = session_.update(session_.lighting(), control);
+    if (params.op == probes::LightOperator::surfel) require_converged(done.solve);
   }
 
   transport::RelightSession& session() { return session_; }
-  bool converged() const { return converged_; }
 
   std::vector<std::vector<sh::RadianceSh>> reflected_by_group(const Control& control) {
     if (params_.op == probes::LightOperator::bounce) {
       report_.contraction = 0;
-      return bounce_by_group(session_, source_, params_, degree_, report_, converged_);
+      return bounce_by_group(session_, source_, params_, degree_, report_);
     }
     transport::SolveReport slowest;
     std::vector<std::vector<sh::RadianceSh>> reflected = session_.reflected_by_group(control, &slowest);
     report_.iterations = slowest.iterations;
-    converged_ = slowest.converged;
+    report_.error = slowest.error;
+    require_converged(slowest);
     return reflected;
   }
 
@@ -189,10 +200,10 @@ class LitSession {
   TransportBakeReport& report_;
   int degree_;
   transport::RelightSession session_;
-  bool converged_ = true;
 };
 
 void require_transport(const TransportBakeParams& params) {
+  require_named("light operator", params.op);
   require(params.op != probes::LightOperator::path, "transport bake",
           "path tracing is no transport between probes");
 }
@@ -244,7 +255,7 @@ probes::ProbeSet bake_transport(const rays::TransportSource& source, probes::Pro
   if (params.viz) find_edges(network, source, set, params.viz_params, {}, report, control);
   if (params.fit) fit(session, source, set, params.fit_params, report, control);
   report.rays = source.rays_traced() - rays_before;
-  check_light(network, set, lit.converged(), report);
+  check_light(network, set, report);
   probes::validate(set, "bake");
   tell_warnings(report);
   return set;
@@ -309,7 +320,7 @@ TransportUpdate update_transport(const rays::TransportSource& source, probes::Pr
   if (params.fit) fit(session, source, set, params.fit_params, report, control);
   probes::merge_groups(set);
   report.rays = source.rays_traced() - rays_before;
-  check_light(session.network(), set, lit.converged(), report);
+  check_light(session.network(), set, report);
   probes::validate(set, "bake");
   tell_warnings(report);
   return update;

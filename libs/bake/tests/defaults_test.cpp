@@ -36,7 +36,8 @@ TEST(Defaults, OfBakesByTransport) {
   EXPECT_FALSE(params.fit);
   EXPECT_EQ(params.transport, (transport::TransportParams{384, 0, 128, 8, 32, 100000}));
   EXPECT_EQ(params.solve.tolerance, 1e-3f);
-  EXPECT_EQ(params.solve.max_iterations, 300);
+  EXPECT_EQ(params.solve.max_iterations, 2000);
+  EXPECT_TRUE(params.solve.settle);
   EXPECT_EQ(params.bounce.weights.method, probes::WeightMethod::trilinear);
   EXPECT_EQ(params.bounce.irradiance_degree, 2);
   EXPECT_EQ(params.bounce.applications, 0);

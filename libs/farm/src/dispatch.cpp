@@ -8,6 +8,7 @@
 #include <ssphh/core/file.h>
 #include <ssphh/core/json_cursor.h>
 #include <ssphh/core/log.h>
+#include <ssphh/core/require.h>
 #include <ssphh/core/stopwatch.h>
 #include <ssphh/farm/ask.h>
 #include <ssphh/farm/dispatch.h>
@@ -29,6 +30,8 @@ class Dispatcher {
       : groups_(groups),
         report_(report),
         finished_(finished),
+        renderer_(options.renderer),
+        service_(job_service(options.renderer)),
         messages_(options.messages),
         patience_(options.patience),
         client_(connect(options.broker)) {
@@ -76,7 +79,7 @@ class Dispatcher {
         keep(job.number, "job", body);
         majordomo::RequestOptions request;
         request.content_key = Hasher().text(body).finish();
-        const RequestId id = client_.submit(job_service(), {std::move(body)}, request);
+        const RequestId id = client_.submit(service_, {std::move(body)}, request);
         sent_.emplace(id, std::move(job));
       }
     }
@@ -118,7 +121,7 @@ class Dispatcher {
       const json::Value stats = json::parse(body[1], where);
       int workers = 0;
       for (const json::Cursor& service : json::elements(json::Cursor(stats, where)["services"])) {
-        if (service.text_or("name") == job_service())
+        if (service.text_or("name") == service_)
           workers = static_cast<int>(service["workers"].integer(0, INT32_MAX));
       }
       workers_ = workers;
@@ -141,7 +144,12 @@ class Dispatcher {
     if (!client_.connected()) {
       log_warning("the broker does not answer yet; still trying");
     } else if (known_ && workers_ == 0) {
-      log_warning("the broker has no worker of this build (engine {}); jobs wait for one", engine_id());
+      const std::string started =
+          renderer_ == Renderer::path
+              ? ""
+              : fmt::format(" that was started with --renderer {}", name_of(renderer_));
+      log_warning("the broker has no worker of this build (engine {}){}; jobs wait for one", engine_id(),
+                  started);
     } else {
       return;
     }
@@ -151,6 +159,8 @@ class Dispatcher {
   const std::vector<UnitGroup>& groups_;
   FarmReport& report_;
   const std::function<void(std::size_t, const FarmReport&)>& finished_;
+  Renderer renderer_;
+  std::string service_;
   std::filesystem::path messages_;
   double patience_;
   majordomo::Client client_;
@@ -169,6 +179,14 @@ class Dispatcher {
 void dispatch(const FarmOptions& options, const std::vector<UnitGroup>& groups, FarmReport& report,
               const std::function<void(std::size_t, const FarmReport&)>& finished, const Control& control) {
   const Stopwatch watch;
+  const char* const where = "farm's work";
+  require(options.patience >= 0, where, "its patience is no number of seconds");
+  for (const UnitGroup& group : groups) {
+    if (group.count == 0) continue;
+    require(group.body != nullptr, where, "units have no body of a job");
+    require(group.done != nullptr, where, "nobody takes what is done");
+    require(finished != nullptr, where, "nobody is told what is finished");
+  }
   if (!options.messages.empty()) {
     std::error_code error;
     std::filesystem::create_directories(options.messages, error);

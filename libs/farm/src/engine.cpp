@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <ssphh/bake/bake.h>
 #include <ssphh/farm/engine.h>
 #include <ssphh/place/init.h>
@@ -37,8 +39,9 @@ const std::string& engine_id() {
   return id;
 }
 
-std::string job_service() {
-  return "ssphh.jobs." + engine_id();
+std::string job_service(Renderer renderer) {
+  const std::string ours = "ssphh.jobs." + engine_id();
+  return renderer == Renderer::path ? ours : fmt::format("{}.{}", ours, name_of(renderer));
 }
 
 std::string blob_service(const Hash128& package) {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <ssphh/core/require.h>
 #include <ssphh/farm/farm_bake.h>
 #include <ssphh/scene/query.h>
 
@@ -49,6 +50,12 @@ void FarmCrew::run(const probes::ProbeSet& set, const bake::BakeParams& params,
                    std::span<const ProbeStage> stages, const std::function<void(ProbeStageResult)>& done,
                    const Control& control) {
   if (stages.empty()) return;
+  require(done != nullptr, "the farm's bake", "nobody takes what is done");
+  for (const ProbeStage& stage : stages) {
+    if (stage.probe >= set.probes.size())
+      throw Error("the farm's bake",
+                  fmt::format("there is no probe {} of {}", stage.probe, set.probes.size()));
+  }
   if (set.probes.size() > job_limits::places)
     throw Error("the farm", fmt::format("bakes at most {} probes", job_limits::places));
   ScenePackage package = pack_scene(scene_);
@@ -62,14 +69,17 @@ void FarmCrew::run(const probes::ProbeSet& set, const bake::BakeParams& params,
   };
   std::vector<Group> groups;
   for (const BakeStage stage : {BakeStage::gen, BakeStage::viz})
-    groups.push_back({job_of_set(set, params.viz_params, stage, scene), {}});
+    groups.emplace_back().all = job_of_set(set, params.viz_params, stage, scene);
+  for (Group& group : groups) group.all.renderer = options_.renderer;
+  // Which version of another renderer made a result is not known: none of theirs is kept.
+  DiskCache* const results = options_.renderer == Renderer::path ? options_.results : nullptr;
   const std::size_t light_groups = set.light_groups.size();
 
   // Take what is known.
   std::size_t cached = 0;
   for (const ProbeStage& stage : stages) {
     Group& group = groups[stage.stage == BakeStage::viz];
-    auto known = find_result(options_.results, unit_key(group.all, stage.probe));
+    auto known = find_result(results, unit_key(group.all, stage.probe));
     auto* result = known ? std::get_if<ProbeJobResult>(&known->data) : nullptr;
     if (result && answers(group.all, std::span(&stage, 1), light_groups, *result)) {
       done(std::move(result->probes[0]));
@@ -92,13 +102,14 @@ void FarmCrew::run(const probes::ProbeSet& set, const bake::BakeParams& params,
       for (const std::size_t i : which) probes.push_back(group.left[i].probe);
       return encode_job(job_of(group.all, std::move(probes)), options_.content);
     };
-    units.done = [this, &group, &done, light_groups](std::span<const std::size_t> which, JobResult result) {
+    units.done = [results, &group, &done, light_groups](std::span<const std::size_t> which,
+                                                        JobResult result) {
       const auto asked = std::span(group.left).subspan(which.front(), which.size());
       auto* probes = std::get_if<ProbeJobResult>(&result.data);
       if (!probes || !answers(group.all, asked, light_groups, *probes))
         throw Error("worker " + result.stats.worker, "its result does not answer the job");
       for (ProbeStageResult& probe : probes->probes) {
-        keep_result(options_.results, unit_key(group.all, probe.done.probe),
+        keep_result(results, unit_key(group.all, probe.done.probe),
                     {ProbeJobResult{group.all.stage, group.all.degree, {probe}}, {}});
         done(std::move(probe));
       }

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include <ssphh/core/require.h>
 #include <ssphh/farm/farm_render.h>
 #include <ssphh/probes/probe_file.h>
 #include <ssphh/scene/query.h>
@@ -49,6 +50,8 @@ trace::RenderState render(const FarmOptions& options, const scene::Scene& scene,
                           const trace::RenderParams& params, const std::optional<RenderProbes>& probes,
                           const std::vector<trace::RenderLayer>& layers, FarmReport& report,
                           const Control& control) {
+  require(options.renderer == Renderer::path, "render", "a farm draws by this program's paths alone");
+  require(!probes || probes->set, "render's probes", "there are none");
   // Describe the render and what goes with it.
   ScenePackage package = pack_scene(scene);
   TileJob job;
@@ -62,7 +65,7 @@ trace::RenderState render(const FarmOptions& options, const scene::Scene& scene,
     job.lighting = lighting_of(*probes, blob);
   }
   const std::vector<trace::Tile> tiles = tiles_of(params);
-  job.tiles = {tiles.front()};
+  if (!tiles.empty()) job.tiles = {tiles.front()};
   validate(job);
   const std::size_t groups = scene::light_groups(scene).size();
   trace::RenderState picture = trace::empty_state(params, groups);

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <ssphh/core/file.h>
+#include <ssphh/core/require.h>
 #include <ssphh/farm/scene_package.h>
 #include <ssphh/farm/scene_store.h>
 
@@ -66,6 +67,7 @@ std::vector<std::byte> fetch_blob(DiskCache& cache, const Hash128& package, cons
     throw BlobUnavailable(fmt::format("{}: the cache of {} bytes is too small for a blob of {}",
                                       cache.dir().string(), cache.max_bytes(), size));
   }
+  require(fetch != nullptr, "blob", "nothing fetches it");
   const PartFile part(cache.dir() / (blob.hex() + ".part"));
   if (auto kept = cache.get(blob)) return std::move(*kept);  // while this process waited for the lock
   if (part.size() > size) part.truncate();

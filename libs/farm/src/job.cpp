@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/require_named.h>
 #include <ssphh/farm/job.h>
 
 namespace ssphh::farm {
@@ -26,6 +27,7 @@ void check(const SceneRef& scene) {
 
 void check(const ProbeJob& job) {
   check(job.scene);
+  require_named("job: renderer", job.renderer);
   require(job.degree >= 0 && job.degree <= sh::max_degree, "degree", "must lie in 0..10");
   require(job.face_size >= 1 && job.face_size <= 4096, "face_size", "must lie in 1..4096");
   require(!job.probes.empty() && job.probes.size() <= job_limits::units, "probes", "must be 1 to 4096");

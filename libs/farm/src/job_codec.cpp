@@ -48,6 +48,7 @@ json::Value put(const ProbeJob& job, MessageWriter& out) {
     places = out.floats(values);
   }
   return {{"scene", put(job.scene)},
+          {"renderer", name_of(job.renderer)},
           {"degree", job.degree},
           {"face_size", job.face_size},
           {"path", put(job.path)},
@@ -65,6 +66,7 @@ ProbeJob get_probe_job(const Field& f, bake::BakeStage stage) {
   ProbeJob job;
   job.stage = stage;
   job.scene = get_scene(f["scene"]);
+  job.renderer = f["renderer"].named<Renderer>();
   job.degree = static_cast<int>(f["degree"].integer(0, sh::max_degree));
   job.face_size = static_cast<int>(f["face_size"].integer(1, 4096));
   job.path = get_path(f["path"]);

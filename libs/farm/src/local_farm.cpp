@@ -15,6 +15,7 @@
 #include <ssphh/core/error.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/parallel.h>
+#include <ssphh/core/require.h>
 #include <ssphh/farm/local_farm.h>
 
 namespace ssphh::farm {
@@ -50,6 +51,13 @@ pid_t spawn(const fs::path& tool, const std::vector<std::string>& arguments, con
   ::_exit(127);
 }
 
+/// Else its processes would end and be started again, with nobody told why.
+void require_program(const fs::path& tool) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(tool, ignored) || ::access(tool.c_str(), X_OK) != 0)
+    throw Error(tool.string(), "is no program: it cannot be started", "name the ssphh tool");
+}
+
 bool ended(pid_t pid) {
   int status = 0;
   return ::waitpid(pid, &status, WNOHANG) != 0;
@@ -71,12 +79,12 @@ struct LocalFarm::Impl {
   pid_t start_worker(std::size_t i) const {
     const auto count = static_cast<std::size_t>(options.workers);
     const int threads = options.threads > 0 ? options.threads : std::max(1, thread_count() / options.workers);
-    return spawn(
-        options.tool,
-        {"worker", "--broker", endpoint, "--slots", "1", "--threads", std::to_string(threads), "--name",
-         fmt::format("local:{}", i % count), "--cache", options.cache.string(), "--cache-size",
-         std::to_string(std::max<std::uint64_t>(1, options.cache_bytes >> 20)), "--config", "none"},
-        folder / fmt::format("worker-{}.log", i));
+    return spawn(options.tool,
+                 {"worker", "--broker", endpoint, "--renderer", std::string(name_of(options.renderer)),
+                  "--slots", "1", "--threads", std::to_string(threads), "--name",
+                  fmt::format("local:{}", i % count), "--cache", options.cache.string(), "--cache-size",
+                  std::to_string(std::max<std::uint64_t>(1, options.cache_bytes >> 20)), "--config", "none"},
+                 folder / fmt::format("worker-{}.log", i));
   }
 
   void watch() {
@@ -131,6 +139,9 @@ LocalFarm::LocalFarm(LocalFarmOptions options) : impl_(new Impl) {
   Impl& s = *impl_;
   s.options = std::move(options);
   if (s.options.workers < 1 || s.options.workers > 1024) throw Error("--local", "must be 1 to 1024 workers");
+  require(s.options.threads >= 0, "local farm", "workers of fewer than 0 threads");
+  require(s.options.look.count() > 0, "local farm", "it would look at its processes without a pause");
+  require_program(s.options.tool);
   s.folder = temporary_folder();
   s.endpoint = "ipc://" + (s.folder / "broker").string();
   try {

@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include <ssphh/core/stopwatch.h>
 #include <ssphh/farm/run_job.h>
 #include <ssphh/probes/lookup.h>
@@ -24,13 +26,20 @@ probes::ProbeSet set_of(const ProbeJob& job) {
   return set;
 }
 
-ProbeJobResult run(const ProbeJob& job, const PreparedScene& scene, const Control& control) {
+ProbeJobResult run(const ProbeJob& job, const PreparedScene& scene, const OtherRenderer& other,
+                   const Control& control) {
   const probes::ProbeSet set = set_of(job);
+  std::unique_ptr<rays::RadianceSource> theirs;
+  if (job.renderer != Renderer::path) {
+    if (job.renderer != other.renderer || !other.make)
+      throw Error(fmt::format("renderer {}", name_of(job.renderer)), "is not there on this worker");
+    theirs = other.make(scene, job.scene.time);
+  }
+  const rays::RadianceSource& source = theirs ? *theirs : *scene.tracer;
   ProbeJobResult result{job.stage, job.degree, {}};
   for (const std::uint32_t probe : job.probes) {
     control.check();
-    result.probes.push_back(
-        bake::bake_stage(*scene.tracer, set, job.viz_params, {job.stage, probe}, control));
+    result.probes.push_back(bake::bake_stage(source, set, job.viz_params, {job.stage, probe}, control));
   }
   return result;
 }
@@ -70,14 +79,16 @@ TileJobResult run(const TileJob& job, const PreparedScene& scene, const rays::In
 
 }  // namespace
 
-JobResult run_job(const Job& job, SceneStore& scenes, const FetchChunk& fetch, const Control& control) {
+JobResult run_job(const Job& job, SceneStore& scenes, const FetchChunk& fetch, const Control& control,
+                  const OtherRenderer& other) {
+  validate(job);
   const SceneRef& ref = std::visit([](const auto& j) -> const SceneRef& { return j.scene; }, job);
   const std::shared_ptr<const PreparedScene> scene = scenes.get(ref, fetch, control);
   const std::uint64_t rays_before = scene->tracer->rays_traced();
   const Stopwatch watch;
   JobResult result;
   if (const auto* probes = std::get_if<ProbeJob>(&job)) {
-    result.data = run(*probes, *scene, control);
+    result.data = run(*probes, *scene, other, control);
   } else {
     const TileJob& tiles = std::get<TileJob>(job);
     std::unique_ptr<rays::IndirectLight> lookup;

@@ -129,6 +129,7 @@ class Reader {
       if (size > 0) std::memcpy(items.data(), bytes.data(), size);
       return;
     }
+    if (!fetch_) in_.fail("array", "nothing fetches its blob");
     if (size > max_package_bytes - total_) in_.fail("array", "makes the scene larger than a package may be");
     total_ += size;
     Hash128 hash;

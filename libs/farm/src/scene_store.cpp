@@ -1,10 +1,15 @@
 #include <fmt/format.h>
 
+#include <ssphh/core/require.h>
 #include <ssphh/farm/scene_package.h>
 #include <ssphh/farm/scene_store.h>
 #include <ssphh/scene/query.h>
 
 namespace ssphh::farm {
+
+SceneStore::SceneStore(DiskCache& cache, std::size_t keep) : cache_(cache), keep_(keep) {
+  require(keep >= 1, "scene store", "keeps 1 at least");
+}
 
 std::shared_ptr<const PreparedScene> SceneStore::get(const SceneRef& ref, const FetchChunk& fetch,
                                                      const Control& control) {

@@ -9,7 +9,8 @@ namespace {
 const std::string stats_service = "mmi.stats", workers_service = "mmi.workers";
 
 std::uint64_t count(const json::Cursor& of, const char* name) {
-  return static_cast<std::uint64_t>(told_number(of, name));
+  const auto number = of.find(name);
+  return number ? number->unsigned_integer() : 0;
 }
 
 /// Without questions to the broker, as those of a watch itself, which its totals count as well.

@@ -36,6 +36,7 @@ ProbeLighting lighting_of(const RenderProbes& probes, const Blob& file) {
 Hash128 unit_key(const ProbeJob& all, std::uint32_t probe) {
   Hasher h;
   h.text("probe").text(engine_id()).value(job_version).value(all.stage);
+  if (all.renderer != Renderer::path) h.text(name_of(all.renderer));
   h.value(all.scene.light.high).value(all.scene.light.low).value(all.scene.time);
   h.value(all.degree).value(all.face_size).value(all.path.max_depth).value(all.path.passes);
   h.value(all.path.spp).value(all.path.seed).value(probe);

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <ssphh/core/log.h>
+#include <ssphh/core/require.h>
 #include <ssphh/core/stopwatch.h>
 #include <ssphh/farm/engine.h>
 #include <ssphh/farm/job_codec.h>
@@ -35,7 +36,7 @@ class Pool {
       majordomo::WorkerOptions worker;
       worker.endpoint = options.broker.endpoint;
       worker.security = options.broker.security;
-      worker.service = job_service();
+      worker.service = job_service(options.other.renderer);
       worker.name = options.slots == 1 ? name : fmt::format("{}/{}", name, i);
       slots_.push_back(std::make_unique<Slot>(worker));
     }
@@ -93,8 +94,8 @@ class Pool {
     const std::string& body = request.body.at(0);
     try {
       const Job job = decode_job(body);
-      JobResult result =
-          run_job(job, scenes_, fetch_from_broker(options_.broker, request.cancel), request.control());
+      JobResult result = run_job(job, scenes_, fetch_from_broker(options_.broker, request.cancel),
+                                 request.control(), options_.other);
       result.stats.worker = slot.name;
       log_info("job={} attempt={} slot={} kind={} units={} seconds={:.3f} rays={}", request.number,
                request.attempt, slot.name, name_of(kind_of(job)), unit_count(job), result.stats.seconds,
@@ -131,9 +132,10 @@ class Pool {
 
 WorkerPoolReport run_workers(const WorkerPoolOptions& options, const Control& control) {
   if (options.slots < 1 || options.slots > 1024) throw Error("slots", "must be 1 to 1024");
+  require(options.idle_exit >= 0, "idle exit", "must be 0 or more seconds");
   Pool pool(options);
-  log_info("worker-ready broker={} service={} slots={} cache={}", options.broker.endpoint, job_service(),
-           options.slots, options.cache.string());
+  log_info("worker-ready broker={} service={} slots={} cache={}", options.broker.endpoint,
+           job_service(options.other.renderer), options.slots, options.cache.string());
   return pool.run(control);
 }
 

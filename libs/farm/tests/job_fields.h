@@ -20,8 +20,9 @@ void fields(auto& visit, farm::ProbeSphere& p) {
   visit("position", position), visit("radius", radius);
 }
 void fields(auto& visit, farm::ProbeJob& j) {
-  auto& [scene, stage, degree, face_size, path, viz_params, probes, places] = j;
-  visit("scene", scene), visit("stage", stage), visit("degree", degree), visit("face_size", face_size);
+  auto& [scene, renderer, stage, degree, face_size, path, viz_params, probes, places] = j;
+  visit("scene", scene), visit("renderer", renderer), visit("stage", stage), visit("degree", degree),
+      visit("face_size", face_size);
   visit("path", path), visit("viz_params", viz_params), visit("probes", probes), visit("places", places);
 }
 void fields(auto& visit, probes::LookupSpec& l) {

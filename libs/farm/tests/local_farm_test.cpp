@@ -56,7 +56,8 @@ class LocalFarmTest : public testing::Test {
   }
   static std::string of_worker(const LocalFarm& farm, int threads, int worker, std::uint64_t mebibytes) {
     return fmt::format(
-        "worker --broker {} --slots 1 --threads {} --name local:{} --cache /some/where --cache-size {}\n",
+        "worker --broker {} --renderer path --slots 1 --threads {} --name local:{} --cache /some/where "
+        "--cache-size {}\n",
         farm.address().endpoint, threads, worker, mebibytes);
   }
   /// Keeps the messages instead of showing them.

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <tuple>
 #include <unordered_map>
 
 #include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 #include <ssphh/geometry/delaunay.h>
 
 namespace ssphh::geometry {
@@ -206,6 +208,21 @@ class Builder {
   std::vector<std::pair<std::int32_t, std::size_t>> boundary_;
 };
 
+/// Exact signs and one cell around each point rest on it.
+void require_lattice(std::span<const LatticePoint> points) {
+  std::vector<LatticePoint> sorted(points.begin(), points.end());
+  for (const LatticePoint& p : sorted) {
+    for (int c = 0; c < 3; ++c)
+      require(p[c] >= -lattice_range && p[c] <= lattice_range, "Delaunay tetrahedra",
+              "a point lies outside the lattice");
+  }
+  std::ranges::sort(sorted, [](const LatticePoint& a, const LatticePoint& b) {
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+  });
+  require(std::ranges::adjacent_find(sorted) == sorted.end(), "Delaunay tetrahedra",
+          "a point stands there twice");
+}
+
 }  // namespace
 
 std::vector<std::int32_t> spanning_points(std::span<const LatticePoint> points) {
@@ -227,7 +244,8 @@ std::vector<std::int32_t> spanning_points(std::span<const LatticePoint> points) 
 
 std::vector<Tetrahedron> delaunay(std::span<const LatticePoint> points) {
   const std::vector<std::int32_t> first = spanning_points(points);
-  SSPHH_CHECK(first.size() == 4);
+  require(first.size() == 4, "Delaunay tetrahedra", "all points lie in one plane");
+  require_lattice(points);
   Builder builder(points);
   builder.start({first[0], first[1], first[2], first[3]});
   for (std::int32_t p = 0; p < static_cast<std::int32_t>(points.size()); ++p)

@@ -13,6 +13,7 @@
 #include "outbox.h"
 #include "socket.h"
 #include "store.h"
+#include "timers.h"
 
 namespace ssphh::majordomo {
 namespace {
@@ -40,10 +41,13 @@ struct Broker::Impl {
         outbox(options.limits.outbox_bytes) {
     core.set_least_event(options.least_event);
     require_keys(options.bind, options.security.has_value(), "--bind");
-    if (options.timers.heartbeat < 1) throw Error("heartbeat", "must be 1 ms or more");
     if (options.timers.worker_expiry < 3 * options.timers.heartbeat)
       throw Error("worker expiry", "is shorter than three heartbeats",
                   "the guide's workers beat every 2500 ms: at least 7500 ms with them");
+    require(options.drain >= 0 && options.drain <= most_millis, "drain", "is under 0 or over most_millis");
+    require_pause(options.connection_timeout, "connection timeout", "must be 1 ms or more");
+    if (options.security)
+      require_keys_of("broker", {options.security->keys.public_key, options.security->keys});
     if (options.security) gate = std::make_unique<Gate>(context, *options.security);
     open();
     if (!options.metrics_bind.empty())

@@ -2,6 +2,7 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/log.h>
+#include <ssphh/core/require.h>
 #include <ssphh/majordomo/client.h>
 
 #include "client_core.h"
@@ -118,7 +119,14 @@ struct Client::Impl {
   bool up = false, warned = false;
 };
 
-Client::Client(ClientOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
+Client::Client(ClientOptions options) {
+  require(options.window >= 1, "client", "its window is 1 request at least");
+  require_pause(options.ask_again, "client", "it would ask the broker again without a pause");
+  require_pause(options.foreign_timeout, "client", "it would ask a foreign broker again without a pause");
+  require(options.foreign_tries >= 1, "client", "it asks a foreign broker once at least");
+  if (options.security) require_keys_of("broker endpoint", *options.security);
+  impl_ = std::make_unique<Impl>(std::move(options));
+}
 Client::~Client() = default;
 Client::Client(Client&&) noexcept = default;
 Client& Client::operator=(Client&&) noexcept = default;
@@ -126,6 +134,9 @@ Client& Client::operator=(Client&&) noexcept = default;
 RequestId Client::submit(const std::string& service, Frames body, const RequestOptions& options) {
   if (!is_service_name(service))
     throw Error("service name", "is empty, too long or not printable", "use 1 to 255 ASCII characters");
+  const auto in_range = [](Millis time) { return time >= 0 && time <= most_millis; };
+  require(in_range(options.deadline), "request", "its deadline is before now or after most_millis");
+  require(in_range(options.attempt_timeout), "request", "its attempt_timeout is under 0 or over most_millis");
   const RequestId id = impl_->core.submit(steady_now(), service, std::move(body), options);
   impl_->flush();
   return id;
@@ -143,7 +154,7 @@ std::optional<ClientEvent> Client::poll(Millis timeout) {
     s.kept.pop_front();
     return event;
   }
-  const Millis end = timeout < 0 ? Timers::never : steady_now() + timeout;
+  const Millis end = timeout < 0 ? Timers::never : steady_now() + std::min(timeout, most_millis);
   while (true) {
     if (auto event = s.core.next_event()) return event;
     if (s.core.outstanding() == 0) {

@@ -54,7 +54,7 @@ void number(std::string& out, Tag tag, T value) {
 }
 
 bool read_millis(std::string_view in, Millis& value) {
-  return read(in, value) && value >= 0 && value <= (Millis{1} << 48);
+  return read(in, value) && value >= 0 && value <= most_millis;
 }
 
 bool read_field(Envelope& e, std::uint8_t tag, std::string_view value) {

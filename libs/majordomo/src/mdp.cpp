@@ -1,6 +1,7 @@
 #include <array>
 #include <utility>
 
+#include <ssphh/core/require.h>
 #include <ssphh/majordomo/mdp.h>
 
 namespace ssphh::majordomo {
@@ -108,6 +109,9 @@ Decoded decode(Frames&& frames, Direction direction, const BrokerLimits& limits)
 }
 
 Frames encode_head(Version version, Side side, Command command, std::string_view name) {
+  require(version <= Version::v02, "message", "there is no version of that number");
+  require(side <= Side::worker, "message", "there is no side of that number");
+  require(command <= Command::disconnect, "message", "there is no command of that number");
   Frames frames;
   frames.reserve(5);
   if (version == Version::v01) frames.emplace_back();

@@ -30,6 +30,11 @@ bool is_key(const std::string& text) {
   return text.size() == key_characters && zmq_z85_decode(raw, text.c_str()) != nullptr;
 }
 
+void require_key(const std::string& where, const std::string& text) {
+  if (!is_key(text))
+    throw Error(where, "is given a key that is no CURVE key", "make one with `ssphh farm keygen`");
+}
+
 std::vector<std::string> words(const std::string& text) {
   std::istringstream stream(text);
   std::vector<std::string> all;
@@ -49,7 +54,7 @@ AllowedKey parse_line(const std::vector<std::string>& fields, const std::string&
       entry.rights.admin = true;
     } else if (role == "worker") {
       entry.rights.services.emplace_back("*");
-    } else if (role.starts_with("worker:") && role.size() > 7) {
+    } else if (role.starts_with("worker:") && role.size() > 7 && words(role) == std::vector{role}) {
       entry.rights.services.push_back(role.substr(7));
     } else {
       throw Error(where, "unknown role '" + role + "'", "use client, admin, worker or worker:SERVICE");
@@ -69,11 +74,15 @@ KeyPair make_key_pair() {
 
 void write_key_pair(const fs::path& dir, const std::string& name, const KeyPair& keys) {
   if (!is_name(name)) throw Error(name, "is no name for a key", "use A-Z a-z 0-9 . _ -, at most 100");
+  require_key(name, keys.public_key);
+  require_key(name, keys.secret_key);
   const fs::path secret = dir / (name + ".key"), open = dir / (name + ".pub");
   for (const fs::path& path : {secret, open})
     if (fs::exists(path))
       throw Error(path.string(), "exists already", "choose another name or remove it first");
-  fs::create_directories(dir);
+  std::error_code error;
+  fs::create_directories(dir, error);
+  if (error) throw Error(dir.string(), "cannot be made: " + error.message());
   write_file(secret, "public " + keys.public_key + "\nsecret " + keys.secret_key + "\n",
              0600);  // nobody else's, not even for a moment
   write_file(open, keys.public_key + "\n");
@@ -138,6 +147,12 @@ void add_to_allow_list(const fs::path& path, const std::string& name, const std:
   if (!text.empty() && !text.ends_with('\n')) text += '\n';
   for (const std::string& field : fields) text += field + (&field == &fields.back() ? "\n" : " ");
   write_file(path, text);
+}
+
+void require_keys_of(const std::string& where, const PeerSecurity& security) {
+  require_key(where, security.broker_key);
+  require_key(where, security.keys.public_key);
+  require_key(where, security.keys.secret_key);
 }
 
 PeerSecurity read_peer_security(const fs::path& dir, const std::string& name) {

@@ -6,9 +6,15 @@
 #include <map>
 #include <utility>
 
+#include <ssphh/core/require.h>
 #include <ssphh/majordomo/frames.h>
 
 namespace ssphh::majordomo {
+
+/// A time after which something is done again must lie in 1..most_millis.
+inline void require_pause(Millis time, const char* where, const char* problem) {
+  require(time >= 1 && time <= most_millis, where, problem);
+}
 
 class Timers {
  public:

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 #include <ssphh/majordomo/worker.h>
 
 #include "socket.h"
@@ -146,12 +147,19 @@ Worker::Worker(WorkerOptions options) {
   if (!is_service_name(options.service))
     throw Error("service name", "is empty, too long or not printable", "use 1 to 255 ASCII characters");
   require_keys(options.endpoint, options.security.has_value(), "broker endpoint");
+  if (options.security) require_keys_of("broker endpoint", *options.security);
+  require_pause(options.heartbeat, "worker", "its heartbeat would have no pause");
+  require_pause(options.broker_expiry, "worker", "its broker expiry would end every connection at once");
+  require_pause(options.reconnect, "worker", "it would reconnect without a pause");
+  require_pause(options.reconnect_max, "worker", "it would reconnect without a pause");
+  require(options.reconnect <= options.reconnect_max, "worker", "reconnect is over reconnect_max");
   impl_ = std::make_unique<Impl>(std::move(options));
 }
 
 Worker::~Worker() = default;
 
 void Worker::run(const Handler& handler) {
+  require(handler != nullptr, "worker", "there is no handler");
   Impl& s = *impl_;
   std::thread io([&s] { s.io(); });
   std::unique_lock lock(s.mutex);
@@ -180,6 +188,8 @@ void Worker::run(const Handler& handler) {
       result = {.outcome = Outcome::failed, .reason = e.what()};
     } catch (const std::exception& e) {
       result = {.outcome = Outcome::failed, .retry = true, .reason = e.what()};
+    } catch (...) {
+      result = {.outcome = Outcome::failed, .retry = true, .reason = "the handler threw no std::exception"};
     }
 
     lock.lock();

@@ -88,12 +88,16 @@ TEST(WorkerLife, WhyItCouldNotIsToldWhenNobodyIsLeft) {
                        [](const Job&) -> Frames { throw std::runtime_error("no memory"); });
   RunningWorker never({.endpoint = broker.endpoint(), .service = "never", .name = "n"},
                       [](const Job&) -> Frames { throw Error("scene", "is none", "take another"); });
+  RunningWorker strange({.endpoint = broker.endpoint(), .service = "strange", .name = "s"},
+                        [](const Job&) -> Frames { throw 5; });
   Client client({.endpoint = broker.endpoint()});
   const std::string hint = " (the broker's log and `mmi.parked` tell more)";
   EXPECT_EQ(ssphh::test::message_of([&] { client.call("job", {"x"}); }),
             "job: parked: failed on 1 worker; w: no memory" + hint);
   EXPECT_EQ(ssphh::test::message_of([&] { client.call("never", {"x"}); }),
             "never: failed: n: scene: is none (take another)" + hint);
+  EXPECT_EQ(ssphh::test::message_of([&] { client.call("strange", {"x"}); }),
+            "strange: parked: failed on 1 worker; s: the handler threw no std::exception" + hint);
 }
 
 TEST(WorkerLife, ThatCannotConnectSaysSo) {

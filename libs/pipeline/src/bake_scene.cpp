@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -7,6 +8,8 @@
 #include <ssphh/bake/update.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/memory.h>
+#include <ssphh/core/require.h>
+#include <ssphh/core/require_named.h>
 #include <ssphh/pipeline/bake_scene.h>
 #include <ssphh/pipeline/scene_options.h>
 #include <ssphh/place/init.h>
@@ -157,6 +160,13 @@ void require_work_for(bool farm, probes::LightOperator op, bool viz_by_path) {
 SceneBake bake_scene(const trace::SharedGeometry& geometry, const scene::Scene& scene, float time,
                      const PlaceOptions& places, const BakeSettings& settings,
                      const std::filesystem::path& checkpoint, const Control& control, bake::BakeCrew* crew) {
+  require(!(settings.max_memory < 0) && std::isfinite(settings.max_memory), "memory of a bake",
+          "must be gigabytes, or 0 for half of the machine's");
+  require(settings.records.value_or(0) >= 0 && settings.usual_records >= 0, "records of a bake",
+          "fewer than 0 surface points");
+  if (settings.op) require_named("light operator", *settings.op);
+  if (settings.viz) require_named("VIZ method", *settings.viz);
+  require_named("source of VIZ", settings.viz_source);
   BakeSettings o = settings;
   o.params.path.seed = o.seed;
   SceneBake result;

@@ -1,3 +1,6 @@
+#include <cmath>
+
+#include <ssphh/core/require.h>
 #include <ssphh/pipeline/draw_marks.h>
 #include <ssphh/rays/posed_world.h>
 #include <ssphh/sketch/draw.h>
@@ -9,6 +12,9 @@ namespace ssphh::pipeline {
 void draw_marks(image::Image& picture, const sketch::Sketch& marks, const trace::SharedGeometry& geometry,
                 const scene::Scene& scene, float time, const trace::RenderParams& params, float white,
                 const Control& control) {
+  require(picture.width == params.width && picture.height == params.height, "picture of marks",
+          "its size is not that of its rendering");
+  require(white > 0 && std::isfinite(white), "white of marks", "is no radiance over 0");
   const trace::TransportScene source(geometry, scene);
   const rays::PosedWorld world(source, time);
   sketch::Eye eye;

@@ -1,7 +1,10 @@
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include <ssphh/core/log.h>
 #include <ssphh/core/parse_number.h>
+#include <ssphh/core/require.h>
 #include <ssphh/core/stopwatch.h>
 #include <ssphh/pipeline/places.h>
 #include <ssphh/trace/transport_scene.h>
@@ -38,6 +41,7 @@ bool is_probe_file(const PlaceOptions& options) {
 std::optional<PlaceResult> place_for(const trace::SharedGeometry& geometry, const scene::Scene& scene,
                                      float time, const PlaceOptions& options, const std::string& fallback,
                                      const Control& control) {
+  require(std::isfinite(time), "time", "it must be a finite number of seconds");
   place::PlaceParams params = place::place_params(scene, time);
   std::string probes = options.probes.empty() ? fallback : options.probes;
   if (probes.empty()) {

@@ -1,3 +1,4 @@
+#include <ssphh/core/require.h>
 #include <ssphh/pipeline/relit.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/scene/with_lighting.h>
@@ -6,6 +7,7 @@
 namespace ssphh::pipeline {
 
 mat4 aimed(const mat4& world, const vec3& direction) {
+  require(is_finite(direction) && direction != vec3(0), "aim of a light", "its direction leads nowhere");
   const Frame frame = Frame::around(-glm::normalize(direction));
   return {vec4(frame.x, 0), vec4(frame.y, 0), vec4(frame.z, 0), world[3]};
 }

@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include <fmt/format.h>
 
 #include <ssphh/core/log.h>
+#include <ssphh/core/require.h>
 #include <ssphh/pipeline/live_method.h>
 #include <ssphh/pipeline/render_scene.h>
 #include <ssphh/pipeline/scene_options.h>
@@ -22,6 +24,7 @@ trace::Projection projection_of(PictureProjection projection, const scene::Camer
 
 scene::CameraPose camera_of(const scene::Scene& scene, const std::string& name, float time,
                             trace::SharedGeometry geometry) {
+  require(std::isfinite(time), "time", "it must be a finite number of seconds");
   if (!name.empty() || !scene.cameras.empty()) return scene::camera_pose(scene, name, time);
   if (!geometry) geometry = std::make_shared<const trace::SceneGeometry>(scene);
   return study::default_view(scene, trace::TransportScene(geometry, scene), time);

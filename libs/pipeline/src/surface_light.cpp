@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 
+#include <ssphh/core/require.h>
 #include <ssphh/pipeline/surface_light.h>
 
 namespace ssphh::pipeline {
@@ -10,7 +12,9 @@ SurfaceLight::SurfaceLight(const trace::TransportScene& source, const trace::Pat
     : lookup_(probes::make_lookup(probes::LookupMethod::irradiance, set, tracer, params)),
       held_(lookup_->direct_groups()),
       samples_(direct_samples) {
-  if (direct_samples <= 0) return;
+  require(std::isfinite(time), "time", "it must be a finite number of seconds");
+  require(direct_samples >= 0, "light of surfaces", "fewer than 0 samples");
+  if (direct_samples == 0) return;
   std::vector<mat4> poses;
   for (int part = 0; part < source.part_count(); ++part) poses.push_back(source.part_pose(part, time));
   direct_ = source.direct_light(source.lights(time), poses);

@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include <ssphh/core/require_named.h>
+
 #include "packed_probes.h"
 
 namespace ssphh::probes {
@@ -155,6 +157,7 @@ std::unique_ptr<rays::IndirectLight> make_lookup(const LookupSpec& spec, const P
 std::unique_ptr<rays::IndirectLight> make_lookup(LookupMethod method, const ProbeSet& set,
                                                  const rays::RadianceSource& source,
                                                  const LookupParams& params) {
+  require_named("lookup method", method);
   if (method == LookupMethod::light) return std::make_unique<LightLookup>(set, source, params);
   return std::make_unique<IrradianceLookup>(set, source, params);
 }

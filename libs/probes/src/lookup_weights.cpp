@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <ssphh/core/error.h>
+#include <ssphh/core/require_named.h>
 #include <ssphh/probes/lookup_constants.h>
 #include <ssphh/probes/lookup_weights.h>
 
@@ -188,6 +189,7 @@ std::unique_ptr<VisibleWeights> make_visible_weights(std::span<const vec3> posit
               std::isfinite(params.normal_offset),
           "probe lookup", "spacing and normal offset must be lengths");
   const WeightMethod method = method_of_probes(params);
+  require_named("lookup weights", method);
   if (method == WeightMethod::distance || !has_spacing(positions, params))
     return std::make_unique<DistanceWeights>(positions, params);
   if (method == WeightMethod::trilinear) return std::make_unique<TrilinearWeights>(positions, params);

@@ -56,6 +56,7 @@ geometry::Balls surface_reach(std::span<const rays::SurfacePoint> points, std::s
 
 bool see_along_surface(const rays::SurfacePoint& a, const rays::SurfacePoint& b, float spacing,
                        const SeesProbe& sees) {
+  require(sees != nullptr, "surface points", "nothing tells what sees them");
   const float least = fitted_lift * spacing;
   const vec3 low_a = a.position + least * a.normal, low_b = b.position + least * b.normal;
   // Between points of a sphere the surface rises to an eighth of what their normals part.
@@ -68,6 +69,7 @@ bool see_along_surface(const rays::SurfacePoint& a, const rays::SurfacePoint& b,
 }
 
 int surface_cover(const rays::SurfacePoint& point, float spacing, const SeesProbe& sees) {
+  require(sees != nullptr, "surface points", "nothing tells what sees them");
   constexpr int rays = 16;
   const Frame frame = Frame::around(point.normal);
   const vec3 origin = point.position + fitted_lift * spacing * point.normal;

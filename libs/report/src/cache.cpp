@@ -43,12 +43,26 @@ std::optional<JobRecord> find_run(const fs::path& cache, const std::string& key,
   return record;
 }
 
+namespace {
+
+/// Nothing but a run's own folder is ever replaced.
+bool is_key(const std::string& text) {
+  return text.size() == 32 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+}  // namespace
+
 void keep_run(const fs::path& cache, const Job& job, const fs::path& work, JobRecord record) {
+  if (!is_key(job.key)) throw Error("run \"" + job.key + "\"", "has no key of 32 hexadecimal digits");
+  std::error_code error;
+  fs::directory_iterator entries(work, error);
+  if (error) throw Error(work.string(), "holds no run: " + error.message());
   for (const std::string& output : job.outputs) {
     if (!fs::exists(work / output)) throw Error(output, "was not written by " + join_words(job.words));
   }
-  for (const fs::directory_entry& entry : fs::directory_iterator(work)) {
-    if (entry.is_regular_file()) record.files[entry.path().filename().string()] = entry.file_size();
+  for (const fs::directory_entry& entry : entries) {
+    if (entry.is_regular_file() && entry.path().filename() != record_name)
+      record.files[entry.path().filename().string()] = entry.file_size();
   }
   const json::Value document = {{"key", job.key},
                                 {"command", join_words(job.words)},
@@ -60,8 +74,9 @@ void keep_run(const fs::path& cache, const Job& job, const fs::path& work, JobRe
                                 {"peak_bytes", record.peak_bytes},
                                 {"files", record.files}};
   write_file(work / record_name, json::print(document, 2) + "\n");
-  fs::remove_all(cache / job.key);
-  fs::rename(work, cache / job.key);
+  fs::remove_all(cache / job.key, error);
+  fs::rename(work, cache / job.key, error);
+  if (error) throw Error((cache / job.key).string(), "cannot be kept: " + error.message());
 }
 
 }  // namespace ssphh::report

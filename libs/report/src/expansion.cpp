@@ -58,11 +58,14 @@ class Expander {
     for (std::size_t s = 0; s < plan_.scenes.size(); ++s) {
       const std::string& scene = plan_.scenes[s].name;
       if (!context_.scene_hashes.count(scene)) continue;
+      if (plan_.scenes[s].words.empty()) throw Error("scene " + scene, "has no words: which one is it?");
       if (plan_.has_reference) add_cell(s, -1, plan_.reference, {});
       for (std::size_t m = 0; m < plan_.methods.size(); ++m) {
         const PlanMethod& method = plan_.methods[m];
         if (!method.scenes.empty() && std::ranges::find(method.scenes, scene) == method.scenes.end())
           continue;
+        if (method.variants.empty())
+          throw Error("method " + method.name, "has no variant", "one without parameters will do");
         for (const Parameters& parameters : method.variants)
           add_cell(s, static_cast<int>(m), method, parameters);
       }
@@ -72,6 +75,7 @@ class Expander {
 
  private:
   void add_cell(std::size_t scene, int index, const PlanMethod& method, const Parameters& parameters) {
+    if (method.repetitions < 1) throw Error("method " + method.name, "has no repetition");
     Cell cell{scene, index, parameters, label(method, parameters), {}};
     for (int repetition = 0; repetition < method.repetitions; ++repetition)
       cell.runs.push_back(add_run(scene, method, parameters, repetition));

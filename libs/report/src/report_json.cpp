@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/error.h>
 #include <ssphh/core/json_cursor.h>
 
 namespace ssphh::report {
@@ -66,6 +67,11 @@ json::Value cell_data(const Report& report, const ReportCell& cell) {
           {"steps", std::move(steps)}};
 }
 
+void require_scene(const Report& report, std::size_t scene) {
+  if (scene >= report.plan.scenes.size())
+    throw Error("report", fmt::format("there is no scene {} of {}", scene, report.plan.scenes.size()));
+}
+
 }  // namespace
 
 std::string number_text(double value) {
@@ -73,7 +79,18 @@ std::string number_text(double value) {
   return std::isnan(value) ? "" : fmt::format("{:.4g}", value);
 }
 
+void require_sound(const Report& report) {
+  for (const ReportCell& cell : report.cells) {
+    require_scene(report, cell.scene);
+    if (cell.method >= static_cast<int>(report.plan.methods.size())) {
+      throw Error("report",
+                  fmt::format("a cell is of method {} of {}", cell.method, report.plan.methods.size()));
+    }
+  }
+}
+
 double exposure_of(const Report& report, std::size_t scene) {
+  require_scene(report, scene);
   if (report.plan.scenes[scene].exposure) return *report.plan.scenes[scene].exposure;
   const ReportCell* chosen = nullptr;
   for (const ReportCell& cell : report.cells) {
@@ -95,6 +112,7 @@ double published_value(const Report& report, const ReportCell& cell, const std::
 }
 
 json::Value json_of(const Report& report) {
+  require_sound(report);
   const Provenance& p = report.provenance;
   json::Value columns = json::Value::array(), charts = json::Value::array(), published = json::Value::array(),
               cells = json::Value::array(), variables = json::Value::object();

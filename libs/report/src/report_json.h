@@ -9,6 +9,9 @@ namespace ssphh::report {
 
 json::Value json_of(const Report& report);
 
+/// Throws Error for a cell of a scene or method that the plan does not have.
+void require_sound(const Report& report);
+
 /// Numbers for people: four significant digits; "" for NaN.
 std::string number_text(double value);
 

@@ -68,6 +68,7 @@ void scene_table(const Report& report, std::size_t scene, std::string& out) {
 }  // namespace
 
 std::string report_csv(const Report& report) {
+  require_sound(report);
   std::set<std::string> parameters, values;
   for (const ReportCell& cell : report.cells) {
     for (const auto& [name, text] : cell.parameters) parameters.insert(name);
@@ -99,6 +100,7 @@ std::string report_csv(const Report& report) {
 }
 
 std::string report_markdown(const Report& report) {
+  require_sound(report);
   const Provenance& p = report.provenance;
   std::string out = "# " + report.plan.title + "\n";
   if (!report.plan.about.empty()) out += "\n" + report.plan.about + "\n";

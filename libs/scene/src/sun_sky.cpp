@@ -6,6 +6,7 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
+#include <ssphh/core/require_named.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/scene/sun_sky.h>
 
@@ -20,6 +21,7 @@ void check_sky(const SunSkyParams& p) {
     if (!good)
       throw Error(fmt::format("sun and sky: {}", name), fmt::format("{} is out of range", value), range);
   };
+  require_named("sky model", p.model);
   const bool physical = p.model == SkyModel::physical;
   require(p.elevation >= (physical ? -pi / 2 - 1e-5f : 0) && p.elevation <= pi / 2 + 1e-5f, "elevation",
           p.elevation,

@@ -98,6 +98,7 @@ Scene load_scene(const std::string& source, const LoadOptions& options) {
           "environment", "its intensity and rotation must be finite, the first not negative");
   if (const auto problem = unit_problem(options.unit); !options.unit.empty() && !problem.empty())
     throw Error("unit", problem);
+  require(std::isfinite(options.time), "time", "it must be a finite number of seconds");
   // Read the scene, through the overlay that names it if SOURCE is one
   fs::path overlay = options.overlay;
   bool in_metres = options.unit.empty();  // or in what overlays say

@@ -199,6 +199,7 @@ std::size_t BounceOperator::update_pose() {
 BounceReport BounceOperator::solve(std::span<const Irradiance4> direct,
                                    std::vector<sh::RadianceSh>& reflected, bool warm) {
   Data& d = *data_;
+  require(d.params.tolerance >= 0, "bounce", "the tolerance must be a number from 0 up");
   BounceReport report;
   report.edges = d.edges;
   require(direct.size() == d.network.patch_count(), "bounce", "there is not the direct light of each patch");

@@ -7,6 +7,7 @@
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/random.h>
 #include <ssphh/core/require.h>
+#include <ssphh/core/require_named.h>
 #include <ssphh/transport/direct_field.h>
 #include <ssphh/transport/link_viz.h>
 
@@ -180,6 +181,7 @@ std::vector<std::vector<probes::Edge>> viz_from_links(const TransportNetwork& ne
                                                       std::span<const probes::Probe> probes, int degree,
                                                       const LinkVizParams& params, const Control& control,
                                                       const LinkVizScope* scope) {
+  require_named("source of VIZ from links", params.source);
   if (params.neighbors < -1) throw Error("VIZ from links", "neighbours must be -1 (all) or a count");
   if (!(params.threshold >= 0 && std::isfinite(params.threshold)))
     throw Error("VIZ from links", "the threshold must be a number from 0 up, as P is");

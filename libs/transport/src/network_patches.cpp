@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <ssphh/transport/solve.h>
+
 #include "network_data.h"
 
 namespace ssphh::transport {
@@ -44,7 +46,8 @@ void TransportNetwork::Data::find_patch_albedo() {
       albedo[patch] += member.albedo;
       ++count[patch - first];
     }
-    for (std::size_t i = 0; i < sample_count(); ++i) albedo[first + i] /= count[i];
+    for (std::size_t i = 0; i < sample_count(); ++i)
+      albedo[first + i] = glm::min(albedo[first + i] / count[i], vec3(most_albedo));
   });
 }
 

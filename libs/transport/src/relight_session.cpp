@@ -90,9 +90,8 @@ std::vector<std::vector<sh::RadianceSh>> RelightSession::reflected_by_group(cons
     SolveReport solve;
     result[g] = d.reflected_under(direct[g], solve);
     if (!d.bounce) d.pane_light.add_to(g, vec3(1), result[g]);
-    const bool converged = most.converged && solve.converged;
-    if (solve.iterations > most.iterations) most = solve;
-    most.converged = converged;
+    const auto slowness = [](const SolveReport& r) { return std::pair(!r.converged, r.iterations); };
+    if (slowness(solve) > slowness(most)) most = solve;
     progress.advance(1);
   }
   if (slowest) *slowest = most;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/require.h>
+#include <ssphh/core/require_named.h>
 #include <ssphh/transport/network.h>
 #include <ssphh/transport/session_sets.h>
 #include <ssphh/transport/surface_gather.h>
@@ -129,6 +130,7 @@ probes::ProbeSet baked_set(const RelightSession& session, const std::vector<std:
                            probes::GeneratorInfo generator, const Control& control) {
   const std::vector<vec3>& scales = session.lighting().group_scales;
   require(groups.size() == scales.size(), "baked set", "there is not one name for each light group");
+  require_named("light operator", generator.op);
   const TransportParams& transport = session.network().params();
   probes::ProbeSet set;
   set.generator = std::move(generator);

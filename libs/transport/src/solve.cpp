@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/require.h>
@@ -9,6 +11,8 @@ namespace {
 
 /// Rows per task: some 50 µs of work.
 constexpr std::size_t rows_per_block = 256;
+/// Below it a residual within the tolerance leaves less than ten times as much.
+constexpr double settling_bound = 0.9;
 
 using float4 = float __attribute__((vector_size(16)));
 
@@ -68,9 +72,20 @@ Contraction contraction(const LinkRows& links, std::span<const vec3> albedo, int
   return ssphh::contraction(links.rows.size(), apply, steps);
 }
 
+namespace {
+
+/// Of light that a bounce shrinks by the bound at most, or, where that is the most there is, by most_albedo.
+double rate_of(double bound) {
+  if (bound <= 0) return 0;
+  if (bound >= 1) return double(most_albedo);
+  const double slowest = bound < most_chebyshev_bound ? 1 : double(most_albedo) / bound;
+  return std::exp(std::acosh(slowest) - std::acosh(1 / bound));
+}
+
+}  // namespace
+
 double chebyshev_bound(const Contraction& contraction) {
-  constexpr double most = 0.98;
-  return std::min(contraction.upper, most);
+  return std::min(contraction.upper, most_chebyshev_bound);
 }
 
 SolveReport Solver::solve(const LinkRows& links, std::span<const vec3> albedo,
@@ -87,7 +102,10 @@ void Solver::begin(const LinkRows& links, std::span<const vec3> albedo, std::spa
   const std::size_t count = links.rows.size(), patches = links.patch_count();
   require(albedo.size() == patches && direct.size() == patches, "solver",
           "sizes differ from the number of rows");
+  require(params.tolerance >= 0, "solver", "the tolerance must be a number from 0 up");
+  require(params.max_iterations >= 0, "solver", "fewer than 0 iterations");
   problem_ = {&links, albedo, direct, contraction_bound, params, &indirect};
+  problem_.rate = rate_of(contraction_bound);
   report_ = {};
   report_.converged = count == 0;
   const std::size_t blocks = (count + rows_per_block - 1) / rows_per_block;
@@ -97,6 +115,8 @@ void Solver::begin(const LinkRows& links, std::span<const vec3> albedo, std::spa
   next_radiosity_.resize(patches);
   block_residual_.assign(blocks, 0);
   block_largest_.assign(blocks, 0);
+  block_change_.assign(blocks, 0);
+  block_sum_.assign(blocks, 0);
 
   // Start from what `indirect` holds: the right answer already where all that changed is the lamps' power.
   for (const Irradiance4& e : direct) problem_.sum += glm::dvec3(e);
@@ -142,7 +162,7 @@ void Solver::bounce() {
   const float floor = 1e-3f * largest_of(block_largest_);
   const std::vector<LinkRows::Row>& rows = p.links->rows;
   parallel_for(rows.size(), rows_per_block, [&](std::size_t begin, std::size_t end) {
-    float residual = 0, largest = 0;
+    float residual = 0, largest = 0, change = 0, sum = 0;
     for (std::size_t i = begin; i < end; ++i) {
       const Irradiance4 bounced = gather(rows[i], radiosity_.data());
       const float scale = max_component(vec3(bounced));
@@ -151,19 +171,28 @@ void Solver::bounce() {
       largest = std::max(largest, scale);
       // Chebyshev's steps may overshoot by a hair where next to nothing arrives.
       const Irradiance4 next = glm::max(w * (bounced - previous_[i]) + previous_[i], Irradiance4(0));
+      change += max_component(glm::abs(vec3(next - indirect[i])));
+      sum += max_component(vec3(next));
       previous_[i] = indirect[i];
       indirect[i] = next;
       set_radiosity(i, next, next_radiosity_);
     }
     block_residual_[begin / rows_per_block] = residual;
     block_largest_[begin / rows_per_block] = largest;
+    block_change_[begin / rows_per_block] = double(change);
+    block_sum_[begin / rows_per_block] = double(sum);
   });
   radiosity_.swap(next_radiosity_);
   const double c2 = p.bound * p.bound;
   if (p.bound < 1) p.omega = report_.iterations == 0 ? 1 / (1 - c2 / 2) : 1 / (1 - c2 * p.omega / 4);
   ++report_.iterations;
   report_.residual = largest_of(block_residual_);
-  report_.converged = report_.residual <= p.params.tolerance;
+  const double sum = std::accumulate(block_sum_.begin(), block_sum_.end(), 0.0),
+               change = std::accumulate(block_change_.begin(), block_change_.end(), 0.0);
+  report_.error = sum > 0 ? static_cast<float>(change / sum * p.rate / (1 - p.rate)) : 0;
+  const bool settles = p.params.settle && p.bound >= settling_bound;
+  report_.converged =
+      report_.residual <= p.params.tolerance && (!settles || report_.error <= p.params.tolerance);
 }
 
 }  // namespace ssphh::transport

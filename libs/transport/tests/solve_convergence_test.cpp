@@ -136,6 +136,28 @@ TEST(SolveConvergence, APocketThatKeepsItsLightDoesNotHoldUpTheRest) {
   }
 }
 
+TEST(SolveConvergence, LightThatIsToSettleHasItsLastBounces) {
+  // A row that keeps all but ε of its light adds ε of it in a bounce: a residual says that it is done when
+  // half of it is missing.
+  constexpr std::size_t slow = 300;
+  for (const float epsilon : {0.09f, 1e-2f, 1 - most_albedo}) {
+    Mirrors mirrors(600);
+    std::fill(mirrors.albedo.begin(), mirrors.albedo.end(), vec3(0.8f, 0.5f, 0.1f));
+    mirrors.albedo[slow] = vec3(1 - epsilon);
+    std::vector<Irradiance4> indirect;
+    const SolveParams params{.max_iterations = 2000, .settle = true};
+    const SolveReport report = mirrors.solve(chebyshev_bound({0, 1 - double(epsilon)}), params, indirect);
+    EXPECT_TRUE(report.converged) << epsilon;
+    EXPECT_LE(report.error, 1e-3f);
+    for (const std::size_t i : {std::size_t{0}, slow, std::size_t{599}}) {
+      for (int c = 0; c < 3; ++c) {
+        const float exact = mirrors.exact(i)[c];
+        EXPECT_NEAR(indirect[i][c], exact, 2e-3f * exact) << epsilon << " " << i;
+      }
+    }
+  }
+}
+
 TEST(SolveConvergence, AWarmStartFollowsEachChannelsDirectLightUpToFourTimes) {
   Mirrors mirrors(5);
   Solver solver;

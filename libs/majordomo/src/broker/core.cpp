@@ -1,12 +1,36 @@
 #include <algorithm>
 #include <utility>
 
+#include <ssphh/core/require.h>
+
 #include "state.h"
 
 namespace ssphh::majordomo {
 
+namespace {
+
+void require_sound(const BrokerLimits& limits, const BrokerTimers& times) {
+  require(limits.attempts >= 1, "broker limits", "attempts must be 1 at least");
+  require(limits.messages_per_second >= 0, "broker limits", "messages_per_second is under 0 or no number");
+  require(times.straggler >= 0 && times.straggler_after >= 0, "broker timers",
+          "straggler or straggler_after is under 0 or no number");
+  require_pause(times.heartbeat, "heartbeat", "must be 1 ms or more");
+  const std::pair<const char*, Millis> waits[] = {
+      {"worker_expiry", times.worker_expiry},     {"request_expiry", times.request_expiry},
+      {"retry_backoff", times.retry_backoff},     {"retry_backoff_max", times.retry_backoff_max},
+      {"attempt_timeout", times.attempt_timeout}, {"record", times.record},
+      {"stored_result", times.stored_result},     {"service_idle", times.service_idle},
+      {"straggler_least", times.straggler_least}, {"client_grace", times.client_grace}};
+  for (const auto& [name, time] : waits)
+    require(time >= 0 && time <= most_millis, name, "is under 0 or over most_millis");
+}
+
+}  // namespace
+
 BrokerCore::BrokerCore(const BrokerLimits& limits, const BrokerTimers& timers, Random random, bool has_store)
     : impl_(std::make_unique<Impl>()) {
+  require_sound(limits, timers);
+  require(random != nullptr, "broker", "there is no source of random numbers");
   impl_->limits = limits;
   impl_->times = timers;
   impl_->random = std::move(random);

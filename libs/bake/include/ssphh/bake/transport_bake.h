@@ -15,7 +15,7 @@ struct TransportBakeParams {
   probes::LightOperator op = probes::LightOperator::surfel;  ///< surfel or bounce
   transport::BounceParams bounce;
   transport::TransportParams transport{.surfels_per_radius = 32};  ///< finer: nobody waits for a frame
-  transport::SolveParams solve;
+  transport::SolveParams solve{.max_iterations = 2000, .settle = true};
   bool viz = false;  ///< also find the edges between the probes
   transport::LinkVizParams viz_params;
   transport::GatherParams records;  ///< of light kept at surfaces
@@ -30,6 +30,7 @@ struct TransportBakeReport {
   int iterations = 0;                            ///< of the light group that took most
   double contraction = 0;  ///< surfel: upper bound of the factor by which one bounce shrinks light; bounce:
                            ///< an estimate of it for the probes' operator
+  float error = 0;         ///< surfel: share of the light that is missing at most
   double lost = 0;         ///< share of the surfels' rays that end where no surfel is
   double seconds = 0;      ///< all but VIZ, the fit and the records
   double viz_seconds = 0;
@@ -41,8 +42,8 @@ struct TransportBakeReport {
 
 /// Fills the set that INIT made with `surfel` or `bounce` transport, per light group, in the pose of its
 /// time; degree and places are the set's. What the set held of light, edges, hierarchy, fitted points and
-/// records is replaced. Warns about probes inside a body or without light, about more than 1 % of light lost
-/// and about a solution that did not converge. Throws Error without probes and for parameters out of range.
+/// records is replaced. Warns about probes inside a body or without light and about more than 1 % of light
+/// lost. Throws Error without probes, for parameters out of range and for light that does not converge.
 probes::ProbeSet bake_transport(const rays::TransportSource& source, probes::ProbeSet set,
                                 const TransportBakeParams& params, TransportBakeReport& report,
                                 const Control& control = {});

@@ -17,8 +17,9 @@ namespace ssphh::farm {
 struct FarmOptions {
   BrokerAddress broker;
   ContentType content = ContentType::binary;
-  double job_seconds = 1.5;      ///< aimed at for one job
-  DiskCache* results = nullptr;  ///< finished units are kept and found here; must outlive the work
+  Renderer renderer = Renderer::path;  ///< that does jobs of probes: workers that have it are asked
+  double job_seconds = 1.5;            ///< aimed at for one job
+  DiskCache* results = nullptr;        ///< finished units are kept and found here; must outlive the work
   /// Folder in which every job and its result is kept, as sent: NNNN.job.json and NNNN.result.json (.bin
   /// where `content` is binary); empty: none.
   std::filesystem::path messages = {};

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <ssphh/core/hash.h>
+#include <ssphh/farm/job.h>
 
 namespace ssphh::farm {
 
@@ -13,8 +14,9 @@ namespace ssphh::farm {
 /// first call traces (milliseconds).
 const std::string& engine_id();
 
-/// MDP service that does the jobs of this engine: "ssphh.jobs.ENGINE".
-std::string job_service();
+/// MDP service that does the jobs of this engine: "ssphh.jobs.ENGINE", and those that another renderer does
+/// "ssphh.jobs.ENGINE.cycles".
+std::string job_service(Renderer renderer = Renderer::path);
 /// MDP service by which a client hands out a scene's parts: "ssphh.blobs.PACKAGE".
 std::string blob_service(const Hash128& package);
 

@@ -31,9 +31,17 @@ struct ProbeSphere {
   friend bool operator==(const ProbeSphere&, const ProbeSphere&) = default;
 };
 
+/// What finds the light of probes: the path tracer of this program, or Blender's.
+enum class Renderer { path, cycles };
+constexpr auto enum_table(Renderer) {
+  using enum Renderer;
+  return std::to_array<EnumName<Renderer>>({{path, "path"}, {cycles, "cycles"}});
+}
+
 /// GEN or VIZ of some probes of a set.
 struct ProbeJob {
   SceneRef scene;
+  Renderer renderer = Renderer::path;
   bake::BakeStage stage = bake::BakeStage::gen;
   int degree = 9;
   int face_size = 64;

@@ -7,13 +7,15 @@
 #include <vector>
 
 #include <ssphh/farm/blob_server.h>
+#include <ssphh/farm/job.h>
 
 namespace ssphh::farm {
 
 struct LocalFarmOptions {
   std::filesystem::path tool;  ///< the ssphh program
   int workers = 2;
-  int threads = 0;  ///< of each worker; 0: the machine's, divided
+  Renderer renderer = Renderer::path;  ///< of the workers
+  int threads = 0;                     ///< of each worker; 0: the machine's, divided
   std::filesystem::path cache;
   std::uint64_t cache_bytes = std::uint64_t{20} << 30;
   std::chrono::milliseconds look{100};  ///< after which it looks again for processes that have ended

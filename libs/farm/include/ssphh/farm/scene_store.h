@@ -35,8 +35,8 @@ struct PreparedScene {
 /// Safe to call from several threads; one loads at a time.
 class SceneStore {
  public:
-  /// Keeps the `keep` scenes last used in memory.
-  explicit SceneStore(DiskCache& cache, std::size_t keep = 2) : cache_(cache), keep_(keep) {}
+  /// Keeps the `keep` scenes last used in memory, 1 at least; else throws Error.
+  explicit SceneStore(DiskCache& cache, std::size_t keep = 2);
 
   /// Throws Error when the package is another scene than `ref.light` says.
   std::shared_ptr<const PreparedScene> get(const SceneRef& ref, const FetchChunk& fetch,

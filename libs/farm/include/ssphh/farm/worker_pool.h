@@ -2,6 +2,7 @@
 /// A worker process: several jobs at a time from one broker, one scene store.
 
 #include <ssphh/farm/blob_server.h>
+#include <ssphh/farm/run_job.h>
 
 namespace ssphh::farm {
 
@@ -11,7 +12,8 @@ struct WorkerPoolOptions {
   std::string name;  ///< of this process, for status and logs; empty: HOST:PID
   std::filesystem::path cache;
   std::uint64_t cache_bytes = std::uint64_t{20} << 30;
-  double idle_exit = 0;  ///< leave after so many seconds without a job; 0: never
+  OtherRenderer other = {};  ///< path: jobs are those of this program's paths; else of that renderer alone
+  double idle_exit = 0;      ///< leave after so many seconds without a job; 0: never
 };
 
 struct WorkerPoolReport {

@@ -17,9 +17,8 @@ struct Tetrahedron {
 };
 
 /// Bowyer–Watson (Computing Dirichlet Tessellations, 1981) with exact signs and cells to a vertex at
-/// infinity. The points must differ from each other and must not all lie in one plane (programmer's mistake
-/// otherwise). A pure function of the points and their order; cospherical points are triangulated as if the
-/// later ones were raised.
+/// infinity. Throws Error for points that are equal, all in one plane or outside the lattice. A pure function
+/// of the points and their order; cospherical points are triangulated as if the later ones were raised.
 std::vector<Tetrahedron> delaunay(std::span<const LatticePoint> points);
 
 /// Indices of four points that span space, found greedily; fewer where the points span less.

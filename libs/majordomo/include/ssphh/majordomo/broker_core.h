@@ -66,7 +66,8 @@ class BrokerCore {
   using Random = std::function<std::array<std::uint64_t, 2>()>;
 
   /// `random` must be unpredictable to peers in production; tests give a sequence. `has_store`: persistent
-  /// requests and 9/TSP are served and store operations come out.
+  /// requests and 9/TSP are served and store operations come out. Throws Error for limits and timers out of
+  /// range.
   BrokerCore(const BrokerLimits& limits, const BrokerTimers& timers, Random random, bool has_store = false);
   ~BrokerCore();
 

@@ -7,12 +7,12 @@
 /// `mdp02`) the frames are exactly the RFC's, with one request in flight at a time; a reply that is late is
 /// asked for again on a new socket.
 
-#include <memory>
 #include <optional>
 #include <string>
 
 #include <ssphh/core/control.h>
 #include <ssphh/core/enum_names.h>
+#include <ssphh/core/held.h>
 #include <ssphh/majordomo/frames.h>
 #include <ssphh/majordomo/security.h>
 
@@ -35,8 +35,8 @@ struct ClientOptions {
 };
 
 struct RequestOptions {
-  Millis deadline = 0;         ///< from now; 0: none. Then the outcome is `expired`
-  Millis attempt_timeout = 0;  ///< of one attempt on one worker; 0: the broker's default
+  Millis deadline = 0;         ///< from now, up to most_millis; 0: none. Then the outcome is `expired`
+  Millis attempt_timeout = 0;  ///< of one attempt on one worker, up to most_millis; 0: the broker's default
   /// Requests to one service with equal key and equal body are computed once while in flight.
   std::optional<Hash128> content_key = {};
   bool persistent = false;  ///< survives broker restarts and this client; wants a broker with a store
@@ -78,7 +78,8 @@ struct ClientEvent {
 /// ZeroMQ's own thread, so long computations between calls of `poll` do no harm.
 class Client {
  public:
-  /// Throws Error for a bad endpoint or a plain one that is not local. A broker that is not there yet is no
+  /// Throws Error for a bad endpoint or a plain one that is not local, for keys that are none and for options
+  /// that would send nothing or ask without a pause. A broker that is not there yet is no
   /// error: requests wait.
   explicit Client(ClientOptions options);
   /// Cancels what is outstanding and not persistent.
@@ -86,7 +87,8 @@ class Client {
   Client(Client&&) noexcept;
   Client& operator=(Client&&) noexcept;
 
-  /// Queues a request; never blocks. Throws Error for a service name that is empty, too long or unprintable.
+  /// Queues a request; never blocks. Throws Error for a service name that is empty, too long or unprintable,
+  /// and for times out of range.
   RequestId submit(const std::string& service, Frames body, const RequestOptions& options = {});
   /// The request's outcome will be `cancelled` unless it is finished already; unknown ids are ignored.
   void cancel(const RequestId& id);
@@ -106,7 +108,7 @@ class Client {
 
  private:
   struct Impl;
-  std::unique_ptr<Impl> impl_;
+  Held<Impl> impl_;
 };
 
 }  // namespace ssphh::majordomo

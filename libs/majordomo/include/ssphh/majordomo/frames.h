@@ -23,6 +23,8 @@ using Body = std::shared_ptr<const Frames>;
 
 /// Milliseconds of a steady clock; only differences mean anything. The state machines never read a clock.
 using Millis = std::int64_t;
+/// The longest time that anybody may ask for, some 9000 years: sums with the clock's stay in range.
+inline constexpr Millis most_millis = Millis{1} << 48;
 
 /// Bytes of all frames.
 std::size_t byte_count(const Frames& frames);

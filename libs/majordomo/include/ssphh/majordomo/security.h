@@ -19,7 +19,8 @@ struct KeyPair {
 KeyPair make_key_pair();
 
 /// Writes DIR/NAME.key (both keys, readable by the owner only) and DIR/NAME.pub (the public key alone).
-/// Throws Error when a file exists already or the name is not [A-Za-z0-9._-]+.
+/// Throws Error when a file exists already, the name is not [A-Za-z0-9._-]+, the keys are none or the folder
+/// cannot be made.
 void write_key_pair(const std::filesystem::path& dir, const std::string& name, const KeyPair& keys);
 /// Throws Error when the file is missing, malformed, or readable by others than its owner.
 KeyPair read_key_pair(const std::filesystem::path& path);
@@ -47,7 +48,8 @@ struct AllowedKey {
 using AllowList = std::vector<AllowedKey>;
 /// Throws Error naming the line.
 AllowList read_allow_list(const std::filesystem::path& path);
-/// Adds a line and replaces the file whole. Throws Error when the name stands there already.
+/// Adds a line and replaces the file whole. Throws Error when the name stands there already or a
+/// role is none.
 void add_to_allow_list(const std::filesystem::path& path, const std::string& name,
                        const std::string& public_key, const std::vector<std::string>& roles);
 
@@ -56,6 +58,8 @@ struct PeerSecurity {
   std::string broker_key = {};  ///< the broker's public key
   KeyPair keys = {};            ///< its own
 };
+/// Throws Error when one of the keys is none; `where` names whose they are.
+void require_keys_of(const std::string& where, const PeerSecurity& security);
 /// DIR/broker.pub and DIR/NAME.key.
 PeerSecurity read_peer_security(const std::filesystem::path& dir, const std::string& name);
 

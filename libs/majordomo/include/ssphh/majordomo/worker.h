@@ -50,13 +50,15 @@ using Handler = std::function<Frames(const Job&)>;
 
 class Worker {
  public:
-  /// Throws Error for a bad endpoint, service or name, or a plain endpoint that is not local.
+  /// Throws Error for a bad endpoint, service or name, a plain endpoint that is not local, keys that are none
+  /// and times without a pause.
   explicit Worker(WorkerOptions options);
   ~Worker();
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
-  /// Serves until stop(); the handler runs on this thread. Reconnects for ever.
+  /// Serves until stop(); the handler runs on this thread. Reconnects for ever. Throws Error without a
+  /// handler, and for an endpoint that ZeroMQ does not know.
   void run(const Handler& handler);
   /// Drain: the request in hand is finished and answered, then the worker disconnects and run() returns. May
   /// be called from any thread and from signal handlers.

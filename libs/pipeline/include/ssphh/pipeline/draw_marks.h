@@ -9,7 +9,8 @@
 namespace ssphh::pipeline {
 
 /// `picture` was rendered with these parameters, of the scene posed at `time`, in any projection; `white` is
-/// the radiance that is shown as 1. What surfaces hide is dimmed; glass hides nothing. Throws Cancelled.
+/// the radiance that is shown as 1. What surfaces hide is dimmed; glass hides nothing. Throws Error for a
+/// picture of another size; Cancelled.
 void draw_marks(image::Image& picture, const sketch::Sketch& marks, const trace::SharedGeometry& geometry,
                 const scene::Scene& scene, float time, const trace::RenderParams& params, float white,
                 const Control& control = {});

@@ -12,12 +12,18 @@
 
 namespace ssphh::pipeline {
 
+/// Stays where it is made: its method looks at its source.
 class LiveMethod {
  public:
-  /// Bakes. `settings` as "name=value". Keeps a reference to the scene.
+  /// Bakes. `settings` as "name=value". Keeps a reference to the scene. Throws Error for unknown methods and
+  /// settings.
   LiveMethod(const std::string& name, const std::vector<std::string>& settings,
              trace::SharedGeometry geometry, const scene::Scene& scene, const Control& control,
              bool keep_direct = false);
+  LiveMethod(const std::string&, const std::vector<std::string>&, trace::SharedGeometry, const scene::Scene&&,
+             const Control&, bool = false) = delete;  // it would be gone
+  LiveMethod(const LiveMethod&) = delete;
+  LiveMethod& operator=(const LiveMethod&) = delete;
 
   /// One frame; its time is added to figures().
   void update(const scene::LightingState& state, const Control& control);

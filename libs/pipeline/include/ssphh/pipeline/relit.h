@@ -11,7 +11,8 @@
 
 namespace ssphh::pipeline {
 
-/// A light's pose turned such that −z goes along `direction`, of any length but 0; the place stays.
+/// A light's pose turned such that −z goes along `direction`, of any length but 0, else throws Error; the
+/// place stays.
 mat4 aimed(const mat4& world, const vec3& direction);
 
 /// The light of a session in this scene as a bake would write it, in the state of its last update. `groups`

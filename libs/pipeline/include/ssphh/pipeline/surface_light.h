@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <ssphh/core/held.h>
 #include <ssphh/probes/lookup.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
@@ -18,7 +19,7 @@ namespace ssphh::pipeline {
 class SurfaceLight {
  public:
   /// `source` and `tracer` are of one scene, at `time` [s]. `direct_samples`: of each emitter with an extent;
-  /// 0: only what the lookup holds. Throws Error as probes::make_lookup does.
+  /// 0: only what the lookup holds. Throws Error as probes::make_lookup does, and for less than 0 samples.
   SurfaceLight(const trace::TransportScene& source, const trace::PathTracer& tracer,
                const probes::ProbeSet& set, const probes::LookupParams& params, float time,
                int direct_samples);
@@ -29,7 +30,7 @@ class SurfaceLight {
   const std::vector<std::string>& held_groups() const { return held_; }
 
  private:
-  std::unique_ptr<rays::IndirectLight> lookup_;
+  Held<rays::IndirectLight> lookup_;
   std::vector<std::string> held_;
   std::unique_ptr<rays::DirectLight> direct_;
   std::vector<std::pair<int, vec3>> groups_;

@@ -30,7 +30,8 @@ std::optional<JobRecord> find_run(const std::filesystem::path& cache, const std:
                                   const std::string& build);
 
 /// Writes the record into `work` (where the run left its outputs and "stdout") and renames the folder to its
-/// key, replacing what is there.
+/// key, replacing what is there. Throws Error for a job without a key, without its outputs, and for folders
+/// that are none.
 void keep_run(const std::filesystem::path& cache, const Job& job, const std::filesystem::path& work,
               JobRecord record);
 

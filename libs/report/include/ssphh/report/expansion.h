@@ -49,7 +49,7 @@ struct ExpandContext {
 /// A key changes with the tool's version, the words, the content of the scene and of every file named, the
 /// earlier steps whose outputs are read, the seed and the number of threads; it does not depend on where
 /// files lie or in which order the plan has its keys. Scenes without a hash are left out. Throws Error for a
-/// picture that no step writes.
+/// picture that no step writes, a scene without words, and a method without a variant or repetition.
 Expansion expand(const Plan& plan, const ExpandContext& context);
 
 /// `words` with paths for files: outputs in `work`, earlier outputs in `cache`.

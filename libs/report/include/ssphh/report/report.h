@@ -62,7 +62,7 @@ struct Report {
 double shown(const ReportCell& cell, const std::string& name);
 
 /// EV at which a scene's pictures are shown: the plan's, else what suits the reference, or the first cell
-/// that has a picture. 0 without pictures.
+/// that has a picture. 0 without pictures. Throws Error for a scene that the plan does not have.
 double exposure_of(const Report& report, std::size_t scene);
 
 /// Columns of the plan, or when it names none: the usual errors if there is a reference, and the run time.
@@ -72,6 +72,7 @@ std::vector<Column> columns_of(const Report& report);
 void add_numbers(const std::string& step, const std::string& json,
                  std::map<std::string, std::vector<double>>& values);
 
+/// These throw Error for a cell of a scene or method that the plan does not have.
 std::string report_json(const Report& report);  ///< everything but the pictures
 std::string report_csv(const Report& report);   ///< one line per cell; every value, RFC 4180
 std::string report_markdown(const Report& report);

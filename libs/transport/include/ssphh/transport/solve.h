@@ -37,9 +37,13 @@ struct LinkRows {
 /// one bounce shrinks light.
 Contraction contraction(const LinkRows& links, std::span<const vec3> albedo, int steps = 16);
 
-/// The bound to accelerate with: the upper one, but at most 0.98. Where a white pocket holds its light for
+/// What a bounce leaves of light at most: no material reflects more, and what is enclosed has an end.
+inline constexpr float most_albedo = 0.999f;
+
+/// The bound to accelerate with: the upper one, but at most this. Where a white pocket holds its light for
 /// hundreds of bounces, a bound that covers it lets steps everywhere else overshoot by many times what is
 /// left to find; with this one the pocket still converges, only more slowly than the rest.
+inline constexpr double most_chebyshev_bound = 0.98;
 double chebyshev_bound(const Contraction& contraction);
 
 /// out_i = Σ_p F_ip radiosity_p: one bounce. Sizes are those of patches and rows.
@@ -73,6 +77,7 @@ class Solver {
     std::vector<Irradiance4>* indirect = nullptr;
     glm::dvec3 sum{0};  ///< of the direct light
     double omega = 1;   ///< Chebyshev's
+    double rate = 0;    ///< by which an iteration shrinks what is missing, at least
   };
   bool finished() const { return report_.converged || report_.iterations >= problem_.params.max_iterations; }
   void bounce();
@@ -83,7 +88,8 @@ class Solver {
   SolveReport report_;
   std::vector<Irradiance4> radiosity_, next_radiosity_, previous_;
   std::vector<float> block_residual_, block_largest_;
-  std::optional<glm::dvec3> last_sum_;  ///< of the direct light that was solved last
+  std::vector<double> block_change_, block_sum_;  ///< of E
+  std::optional<glm::dvec3> last_sum_;            ///< of the direct light that was solved last
 };
 
 }  // namespace ssphh::transport

@@ -33,10 +33,14 @@ struct TransportParams {
 struct SolveParams {
   float tolerance = 1e-3f;  ///< largest residual of a surfel, relative to its E + 1e-3 · (the largest E)
   int max_iterations = 300;
+  /// Where a bounce keeps nearly all light it adds little to what is far from its end: converged is then only
+  /// what `error` puts within the tolerance as well.
+  bool settle = false;
 };
 struct SolveReport {
   int iterations = 0;
   float residual = 0;  ///< as `tolerance`, before the last iteration
+  float error = 1;     ///< share of all light that is missing at most
   bool converged = true;
 };
 
