@@ -57,7 +57,7 @@ class LocalFarmTest : public testing::Test {
   static std::string of_worker(const LocalFarm& farm, int threads, int worker, std::uint64_t mebibytes) {
     return fmt::format(
         "worker --broker {} --renderer path --slots 1 --threads {} --name local:{} --cache /some/where "
-        "--cache-size {}\n",
+        "--cache-size {} --config none\n",
         farm.address().endpoint, threads, worker, mebibytes);
   }
   /// Keeps the messages instead of showing them.
@@ -90,7 +90,7 @@ TEST_F(LocalFarmTest, StartsABrokerAndTwoWorkersThatShareTheMachine) {
     EXPECT_FALSE(farm.address().security);
     EXPECT_EQ(farm.address().endpoint, "ipc://" + (folder_of_farm / "broker").string());
     EXPECT_EQ(started_with(farm, "broker.log"),
-              "broker --bind " + farm.address().endpoint + " --attempts 5\n");
+              "broker --bind " + farm.address().endpoint + " --attempts 5 --config none\n");
     const int threads = std::max(1, thread_count() / 2);
     EXPECT_EQ(started_with(farm, "worker-0.log"), of_worker(farm, threads, 0, 20 << 10));
     EXPECT_EQ(started_with(farm, "worker-1.log"), of_worker(farm, threads, 1, 20 << 10));

@@ -133,7 +133,6 @@ TEST(JobKey, HoldsEveryFieldOfThePlanThatACommandSees) {
     undecisive[scene] = "where the scene lies; its hash is in the key";
   undecisive["methods/1/variants/size"] = "the same command once more";
   undecisive["scenes/size"] = "a scene without a hash is left out";
-  undecisive["methods/size"] = "a method without steps";
   undecisive["methods/0/scenes/size"] = undecisive["methods/1/scenes/size"] = "no scene is called \"\"";
   undecisive["reference/variants"] = "a reference has none";
   undecisive["reference/scenes"] = "a reference is of all scenes";
