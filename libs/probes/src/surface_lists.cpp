@@ -22,6 +22,11 @@ namespace {
 /// Side of a cell, in spacings of points.
 constexpr float cell_share = 2.0f / 3;
 
+/// Sight begins above the surface by shares of a point's spacing, or of so many cells where that is less: far
+/// points of a plain, hundreds of metres apart, would be seen from above the roofs by what lies under a
+/// house.
+constexpr float most_cells_apart = 8;
+
 /// Samples of a part of a cell on surfaces that face one axis: one of each sheet of a few, a picture's front
 /// and back and the wall behind it.
 struct Layers {
@@ -246,12 +251,13 @@ class Preparation {
     const rays::SurfacePoint& point = out_.points[p];
     const vec3 n = work.samples.normal(i);
     const rays::SurfacePoint at{work.samples.position(i), work.samples.side(i, point.normal) == 1 ? -n : n};
-    if (see_along_surface(at, point, spacings_[p], sees_)) return Seen::yes;
+    const float spacing = std::min(spacings_[p], most_cells_apart * grid_->cell_size);
+    if (see_along_surface(at, point, spacing, sees_)) return Seen::yes;
     if (work.panes.empty()) return Seen::no;
     const auto through = [&](const vec3& from, const vec3& to) {
       return sees_(from, to) || sees_through(work.panes, from, to);
     };
-    return see_along_surface(at, point, spacings_[p], through) ? Seen::through_glass : Seen::no;
+    return see_along_surface(at, point, spacing, through) ? Seen::through_glass : Seen::no;
   }
 
   /// Whether a pane of the cell, of one sheet or two, is all that stands in the way.

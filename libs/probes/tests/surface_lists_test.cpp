@@ -123,6 +123,38 @@ TEST(SurfaceLists, AFloorHasPointsAllTheWayToAPane) {
   EXPECT_EQ(fewest(0), 0u) << "a wall's two sides have no points in common";
 }
 
+TEST(SurfaceLists, FarPointsOfAPlainAreNotSeenFromUnderAHouse) {
+  // Hundreds of metres apart: shares of that are above the roof. What lies under the house has no say then,
+  // wherever its wall cuts a part of a cell.
+  FittedPoints fitted = around_body();
+  fitted.points.pop_back(), fitted.weights.pop_back();
+  std::erase_if(fitted.points, [](const rays::SurfacePoint& p) {
+    return std::abs(p.position.x) < 0.7f && std::abs(p.position.z) < 0.7f;
+  });
+  for (int i = 0; i < 9; ++i) {
+    const vec2 at(400.0f * static_cast<float>(i % 3 - 1), 300 + 400.0f * static_cast<float>(i / 3));
+    fitted.points.push_back({{at.x, 0, at.y}, {0, 1, 0}});
+  }
+  fitted.weights.resize(fitted.points.size());
+  for (PointWeights& weights : fitted.weights) {
+    weights = {};
+    weights.add(0, 1);
+  }
+  scene::Scene scene = body_on_a_floor();
+  for (int shift = 0; shift < 10; ++shift) {
+    const vec3 below(-0.6f, -0.1f, -0.6f), roof(0.6f + 0.004f * static_cast<float>(shift), 1.2f, 0.6f);
+    scene.meshes[1] = scene::make_box(below, roof);
+    scene.meshes[1].material = 0;
+    const auto inside = [&](const vec3& x) { return x == glm::clamp(x, below, roof); };
+    const auto sees = [&](const vec3& a, const vec3& b) {
+      return inside(a) == inside(b) && (inside(a) || misses(below, roof, a, b));
+    };
+    const SurfaceLists surfaces = prepare_fitted(scene, 0, fitted, sees).surfaces;
+    for (float x = roof.x + 0.002f; x < 0.8f; x += 0.004f)
+      EXPECT_GE(lighting(surfaces, {x, 0, 0.1f}).size(), 2u) << x << " beside a wall at " << roof.x;
+  }
+}
+
 TEST(SurfaceLists, APictureBeforeAWallHasItsOwnPoints) {
   // Its front, its back and the wall lie in one part of a cell, by turns with a border between two of them.
   for (int shift = 0; shift < 10; ++shift) {
