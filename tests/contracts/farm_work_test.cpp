@@ -84,6 +84,19 @@ Contract refuses_crew(const std::string& given, const bake::ProbeStage& stage,
       std::move(words));
 }
 
+/// `workers`: their number, as JSON.
+Contract refuses_figures(const std::string& given, const std::string& workers) {
+  return refuses("FiguresOf", given,
+                 [workers] {
+                   farm::FarmStatus status;
+                   status.stats = json::parse(
+                       R"({"now":{"workers":)" + workers + R"(},"total":{},"services":[]})", "stats");
+                   status.workers = json::parse(R"({"workers":[]})", "workers");
+                   farm::figures_of(status);
+                 },
+                 {"mmi.stats", "workers"});
+}
+
 farm::LocalFarmOptions local_farm() {
   farm::LocalFarmOptions options;
   options.tool = "/bin/true";
@@ -290,30 +303,9 @@ std::vector<Contract> of_stores() {
               },
               {"tcp://"}),
       refuses("FiguresOf", "Nothing", [] { farm::figures_of({}); }, {"mmi."}),
-      refuses("FiguresOf", "TextsForNumbers",
-              [] {
-                farm::FarmStatus status;
-                status.stats = json::parse(R"({"now":{"workers":"two"},"total":{},"services":[]})", "stats");
-                status.workers = json::parse(R"({"workers":[]})", "workers");
-                farm::figures_of(status);
-              },
-              {"mmi.stats", "workers"}),
-      refuses("FiguresOf", "NegativeNumbers",
-              [] {
-                farm::FarmStatus status;
-                status.stats = json::parse(R"({"now":{"workers":-2},"total":{},"services":[]})", "stats");
-                status.workers = json::parse(R"({"workers":[]})", "workers");
-                farm::figures_of(status);
-              },
-              {"mmi.stats", "workers"}),
-      refuses("FiguresOf", "NumbersThatNoCountCanBe",
-              [] {
-                farm::FarmStatus status;
-                status.stats = json::parse(R"({"now":{"workers":1e300},"total":{},"services":[]})", "stats");
-                status.workers = json::parse(R"({"workers":[]})", "workers");
-                farm::figures_of(status);
-              },
-              {"mmi.stats", "workers"}),
+      refuses_figures("TextsForNumbers", R"("two")"),
+      refuses_figures("NegativeNumbers", R"(-2)"),
+      refuses_figures("NumbersThatNoCountCanBe", R"(1e300)"),
   };
 }
 

@@ -8,22 +8,12 @@
 #include <ssphh/trace/path_tracer.h>
 
 #include "contract.h"
+#include "kept_scene.h"
 #include "probe_sets.h"
 #include "spoilt_scenes.h"
 
 namespace ssphh::test {
 namespace {
-
-/// As long as what refers to it.
-const scene::Scene& scene_of_light() {
-  static const scene::Scene scene = sound_scene();
-  return scene;
-}
-
-trace::SharedGeometry geometry_of_light() {
-  static const auto geometry = std::make_shared<const trace::SceneGeometry>(scene_of_light());
-  return geometry;
-}
 
 Contract refuses_scene(const std::string& given, std::function<void(pipeline::SceneOptions&)> spoil,
                        std::vector<std::string> words) {
@@ -87,24 +77,23 @@ std::vector<Contract> of_loaded_scenes() {
       refuses("Aimed", "AtNoNumber", [] { pipeline::aimed(mat4(1), vec3(nan)); }, {"direction"}),
       refuses("BakedSession", "OfOtherGroups",
               [] {
-                const trace::TransportScene source(scene_of_light());
-                pipeline::baked_session(session_of(source), scene_of_light(), {},
-                                        probes::LightOperator::surfel);
+                const trace::TransportScene source(kept_scene());
+                pipeline::baked_session(session_of(source), kept_scene(), {}, probes::LightOperator::surfel);
               },
               {"light group"}),
       refuses("BakedSession", "OfAnOperatorThatIsNone",
               [] {
-                const trace::TransportScene source(scene_of_light());
+                const trace::TransportScene source(kept_scene());
                 transport::RelightSession session = session_of(source);
                 session.update(session.lighting());
-                pipeline::baked_session(session, scene_of_light(), {"lamp"},
+                pipeline::baked_session(session, kept_scene(), {"lamp"},
                                         static_cast<probes::LightOperator>(9));
               },
               {"operator"}),
-      refuses("ReadProbesOf", "NoFile", [] { pipeline::read_probes_of(scene_of_light(), "", {}, false); },
+      refuses("ReadProbesOf", "NoFile", [] { pipeline::read_probes_of(kept_scene(), "", {}, false); },
               {"probe file"}),
       refuses("RequireSameScene", "OfAnother",
-              [] { pipeline::require_same_scene("x.sphl", sound_set(), scene_of_light(), {}, {}, false); },
+              [] { pipeline::require_same_scene("x.sphl", sound_set(), kept_scene(), {}, {}, false); },
               {"x.sphl", "another scene"}),
       gives("Viewpoints", "OfNothing",
             [] {
@@ -118,9 +107,9 @@ std::vector<Contract> of_loaded_scenes() {
 std::vector<Contract> of_methods() {
   return {
       refuses("LiveMethod", "OfNoName",
-              [] { pipeline::LiveMethod("", {}, geometry_of_light(), scene_of_light(), {}); }, {"method"}),
+              [] { pipeline::LiveMethod("", {}, kept_geometry(), kept_scene(), {}); }, {"method"}),
       refuses("LiveMethod", "WithoutGeometry",
-              [] { pipeline::LiveMethod("ambient", {}, {}, scene_of_light(), {}); }, {"geometry"}),
+              [] { pipeline::LiveMethod("ambient", {}, {}, kept_scene(), {}); }, {"geometry"}),
       gives("LiveMethod", "ThatIsCopiedOrMoved",
             [] {
               EXPECT_FALSE(std::is_move_constructible_v<pipeline::LiveMethod>)
@@ -132,36 +121,36 @@ std::vector<Contract> of_methods() {
             }),
       gives("LiveMethod", "ALightingOfAnotherScene",
             [] {
-              pipeline::LiveMethod live("ambient", {}, geometry_of_light(), scene_of_light(), {});
+              pipeline::LiveMethod live("ambient", {}, kept_geometry(), kept_scene(), {});
               scene::LightingState state;
               expect_refusal([&] { live.update(state, {}); }, {"light"});
               live.update(rays::lighting_at(live.source(), 0), {});
             }),
       refuses("SurfaceLight", "OfNoProbes",
               [] {
-                const trace::TransportScene source(scene_of_light());
-                const trace::PathTracer tracer(scene_of_light());
+                const trace::TransportScene source(kept_scene());
+                const trace::PathTracer tracer(kept_scene());
                 pipeline::SurfaceLight(source, tracer, {}, {}, 0, 1);
               },
               {"probe"}),
       refuses("SurfaceLight", "OfMinusOneSamples",
               [] {
-                const trace::TransportScene source(scene_of_light());
-                const trace::PathTracer tracer(scene_of_light());
+                const trace::TransportScene source(kept_scene());
+                const trace::PathTracer tracer(kept_scene());
                 pipeline::SurfaceLight(source, tracer, sound_set(), {}, 0, -1);
               },
               {"samples"}),
       refuses("SurfaceLight", "AtNoTime",
               [] {
-                const trace::TransportScene source(scene_of_light());
-                const trace::PathTracer tracer(scene_of_light());
+                const trace::TransportScene source(kept_scene());
+                const trace::PathTracer tracer(kept_scene());
                 pipeline::SurfaceLight(source, tracer, sound_set(), {}, nan, 1);
               },
               {"time"}),
       gives("SurfaceLight", "ThatWasMoved",
             [] {
-              const trace::TransportScene source(scene_of_light());
-              const trace::PathTracer tracer(scene_of_light());
+              const trace::TransportScene source(kept_scene());
+              const trace::PathTracer tracer(kept_scene());
               pipeline::SurfaceLight first(source, tracer, sound_set(), {}, 0, 1);
               const vec3 lit = first.irradiance({});
               const pipeline::SurfaceLight second = std::move(first);

@@ -6,6 +6,7 @@
 #include <ssphh/pipeline/render_scene.h>
 
 #include "contract.h"
+#include "kept_scene.h"
 #include "probe_sets.h"
 #include "spoilt_scenes.h"
 
@@ -13,17 +14,6 @@ namespace ssphh::test {
 namespace {
 
 using pipeline::BakeSettings;
-
-/// As long as what refers to it.
-const scene::Scene& baked_scene() {
-  static const scene::Scene scene = sound_scene();
-  return scene;
-}
-
-trace::SharedGeometry baked_geometry() {
-  static const auto geometry = std::make_shared<const trace::SceneGeometry>(baked_scene());
-  return geometry;
-}
 
 /// Settings with which a bake takes milliseconds.
 BakeSettings quick() {
@@ -43,7 +33,7 @@ Contract refuses_scene_bake(const std::string& given, std::function<void(BakeSet
       [spoil] {
         BakeSettings settings = quick();
         spoil(settings);
-        pipeline::bake_scene(baked_geometry(), baked_scene(), 0, {}, settings, {});
+        pipeline::bake_scene(kept_geometry(), kept_scene(), 0, {}, settings, {});
       },
       std::move(words));
 }
@@ -56,7 +46,7 @@ Contract refuses_places(const std::string& given, std::function<void(pipeline::P
         pipeline::PlaceOptions options;
         options.probes = "4";
         spoil(options);
-        pipeline::place_for(baked_geometry(), baked_scene(), 0, options, "", {});
+        pipeline::place_for(kept_geometry(), kept_scene(), 0, options, "", {});
       },
       std::move(words));
 }
@@ -66,18 +56,18 @@ std::vector<Contract> of_scene_bakes() {
       gives("BakeScene", "AsItShouldBe",
             [] {
               EXPECT_EQ(
-                  pipeline::bake_scene(baked_geometry(), baked_scene(), 0, {}, quick(), {}).set.probes.size(),
+                  pipeline::bake_scene(kept_geometry(), kept_scene(), 0, {}, quick(), {}).set.probes.size(),
                   1u);
             }),
       refuses("BakeScene", "WithoutGeometry",
-              [] { pipeline::bake_scene({}, baked_scene(), 0, {}, quick(), {}); }, {"geometry"}),
+              [] { pipeline::bake_scene({}, kept_scene(), 0, {}, quick(), {}); }, {"geometry"}),
       refuses("BakeScene", "AtNoTime",
-              [] { pipeline::bake_scene(baked_geometry(), baked_scene(), nan, {}, quick(), {}); }, {"time"}),
+              [] { pipeline::bake_scene(kept_geometry(), kept_scene(), nan, {}, quick(), {}); }, {"time"}),
       refuses("BakeScene", "WithTheGeometryOfAnother",
               [] {
                 const scene::Scene other;
-                pipeline::bake_scene(std::make_shared<const trace::SceneGeometry>(other), baked_scene(), 0,
-                                     {}, quick(), {});
+                pipeline::bake_scene(std::make_shared<const trace::SceneGeometry>(other), kept_scene(), 0, {},
+                                     quick(), {});
               },
               {"geometry"}),
       refuses_scene_bake("OfDegreeMinusOne", [](BakeSettings& s) { s.degree = -1; }, {"degree"}),
@@ -126,11 +116,10 @@ std::vector<Contract> of_scene_bakes() {
                            s.viz_passes = -1;
                          },
                          {"passes"}),
-      refuses("BakeSurfaces", "OfAQualityThatIsNone",
-              [] {
-                pipeline::bake_surfaces(baked_geometry(), baked_scene(), 0, static_cast<bake::Quality>(9), 0);
-              },
-              {"quality"}),
+      refuses(
+          "BakeSurfaces", "OfAQualityThatIsNone",
+          [] { pipeline::bake_surfaces(kept_geometry(), kept_scene(), 0, static_cast<bake::Quality>(9), 0); },
+          {"quality"}),
       refuses_places("OfNoWord", [](auto& o) { o.probes = "many"; }, {"--probes", "many"}),
       refuses_places("OfNoSpacing", [](auto& o) { o.probes = "auto:nan"; }, {"--probes", "nan"}),
       refuses_places("OfAnEndlessSpacing", [](auto& o) { o.probes = "auto:inf"; }, {"inf"}),
@@ -138,9 +127,9 @@ std::vector<Contract> of_scene_bakes() {
       refuses_places("OfMinusOneLevels", [](auto& o) { o.levels = -1; }, {"levels"}),
       refuses_places("OfNoProbes", [](auto& o) { o.max_probes = 0; }, {"probes"}),
       refuses("PlaceFor", "WithoutGeometry",
-              [] { pipeline::place_for({}, baked_scene(), 0, {.probes = "4"}, "", {}); }, {"geometry"}),
+              [] { pipeline::place_for({}, kept_scene(), 0, {.probes = "4"}, "", {}); }, {"geometry"}),
       refuses("PlaceFor", "AtNoTime",
-              [] { pipeline::place_for(baked_geometry(), baked_scene(), nan, {.probes = "4"}, "", {}); },
+              [] { pipeline::place_for(kept_geometry(), kept_scene(), nan, {.probes = "4"}, "", {}); },
               {"time"}),
   };
 }
@@ -155,10 +144,10 @@ struct Picture {
   Picture() {
     params.width = 4, params.height = 3;
     params.path.spp = 1;
-    params.camera = scene::camera_pose(baked_scene(), "");
+    params.camera = scene::camera_pose(kept_scene(), "");
   }
   void render(float time = 0) {
-    pipeline::render_scene(baked_geometry(), baked_scene(), time, finder, params, state);
+    pipeline::render_scene(kept_geometry(), kept_scene(), time, finder, params, state);
   }
 };
 
@@ -185,7 +174,7 @@ std::vector<Contract> of_pictures() {
       refuses("RenderScene", "WithoutGeometry",
               [] {
                 Picture p;
-                pipeline::render_scene({}, baked_scene(), 0, p.finder, p.params, p.state);
+                pipeline::render_scene({}, kept_scene(), 0, p.finder, p.params, p.state);
               },
               {"geometry"}),
       refuses("RenderScene", "AtNoTime", [] { Picture().render(nan); }, {"time"}),
@@ -230,8 +219,8 @@ std::vector<Contract> of_pictures() {
                 p.render();
               },
               {"render"}),
-      refuses("CameraOf", "ANameThatIsNot", [] { pipeline::camera_of(baked_scene(), "back", 0); }, {"back"}),
-      refuses("CameraOf", "NoTime", [] { pipeline::camera_of(baked_scene(), "", nan); }, {"time"}),
+      refuses("CameraOf", "ANameThatIsNot", [] { pipeline::camera_of(kept_scene(), "back", 0); }, {"back"}),
+      refuses("CameraOf", "NoTime", [] { pipeline::camera_of(kept_scene(), "", nan); }, {"time"}),
       gives("ProjectionOf", "ANumberThatIsNone",
             [] {
               EXPECT_EQ(pipeline::projection_of(static_cast<pipeline::PictureProjection>(9), {}),
@@ -240,25 +229,25 @@ std::vector<Contract> of_pictures() {
       refuses("DrawMarks", "OverNoPicture",
               [] {
                 image::Image none;
-                pipeline::draw_marks(none, {}, baked_geometry(), baked_scene(), 0, Picture().params, 1);
+                pipeline::draw_marks(none, {}, kept_geometry(), kept_scene(), 0, Picture().params, 1);
               },
               {"picture", "size"}),
       refuses("DrawMarks", "OverAPictureOfAnotherSize",
               [] {
                 image::Image picture(9, 9);
-                pipeline::draw_marks(picture, {}, baked_geometry(), baked_scene(), 0, Picture().params, 1);
+                pipeline::draw_marks(picture, {}, kept_geometry(), kept_scene(), 0, Picture().params, 1);
               },
               {"picture", "size"}),
       refuses("DrawMarks", "InNoWhite",
               [] {
                 image::Image picture(4, 3);
-                pipeline::draw_marks(picture, {}, baked_geometry(), baked_scene(), 0, Picture().params, nan);
+                pipeline::draw_marks(picture, {}, kept_geometry(), kept_scene(), 0, Picture().params, nan);
               },
               {"white"}),
       refuses("DrawMarks", "WithoutGeometry",
               [] {
                 image::Image picture(4, 3);
-                pipeline::draw_marks(picture, {}, {}, baked_scene(), 0, Picture().params, 1);
+                pipeline::draw_marks(picture, {}, {}, kept_scene(), 0, Picture().params, 1);
               },
               {"geometry"}),
       refuses("SuitableExposure", "OfNoPicture", [] { pipeline::suitable_exposure(image::Image()); },
