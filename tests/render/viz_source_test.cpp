@@ -1,5 +1,6 @@
 /// What lights the others in VIZ, and which scattering counts.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <ssphh/bake/bake.h>
@@ -51,6 +52,42 @@ TEST(VizSource, PHardlyDependsOnTheRadiusWithIntensityAndGrowsWithItsSquareWithR
       }
     }
   }
+}
+
+// Of four pairs the pillar hides one SPHL from the other: what is left of them is what the walls scatter.
+// Both radii have the same random numbers.
+TEST(VizSource, PAroundAPillarChangesByLessThanTwoPercentInEachColourWhenTheRadiusIsHalved) {
+  const auto pillar_room = [](float radius) {
+    scene::Scene scene = dark_room(radius);
+    scene.sphls.clear();
+    add_body(scene, "pillar", scene::make_box({-0.15f, -1, -0.15f}, {0.15f, 1, 0.15f}), {0.8f, 0.5f, 0.3f});
+    for (const vec3& at :
+         {vec3(-0.6f, 0, 0), vec3(0.6f, 0.1f, 0), vec3(0, -0.2f, -0.6f), vec3(0, 0.2f, 0.6f)})
+      add_sphl(scene, fmt::format("at {:g} {:g}", at.x, at.z), at, radius);
+    scene::validate(scene);
+    return scene;
+  };
+  const bake::BakeParams params = effort(24, 48, 3);
+  const probes::ProbeSet large = traced(pillar_room(0.1f), params),
+                         small = traced(pillar_room(0.05f), params);
+  const scene::Scene room = pillar_room(0.1f);
+  const trace::PathTracer tracer(room);
+  int hidden = 0;
+  float most = 0;
+  for (std::size_t i = 0; i < large.probes.size(); ++i) {
+    ASSERT_EQ(large.probes[i].edges.size(), 3u);
+    ASSERT_EQ(small.probes[i].edges.size(), 3u);
+    for (std::size_t e = 0; e < 3; ++e) {
+      const probes::Edge &wide = large.probes[i].edges[e], &narrow = small.probes[i].edges[e];
+      hidden += tracer.visible(large.probes[i].position, large.probes[wide.from].position) ? 0 : 1;
+      most = std::max(most, std::abs(wide.transfer / narrow.transfer - 1));
+      EXPECT_NEAR(wide.transfer / narrow.transfer, 1, 0.02f) << i << " " << e;
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(wide.h[0][c] / narrow.h[0][c], 1, 0.02f) << i << " " << e << " " << c;
+    }
+  }
+  EXPECT_EQ(hidden, 4);
+  RecordProperty("largest_change", std::to_string(most));
 }
 
 TEST(VizSource, LinksKeepTheSameRule) {
