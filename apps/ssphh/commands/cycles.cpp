@@ -5,10 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <ssphh/core/file.h>
-#include <ssphh/core/json.h>
 #include <ssphh/core/require.h>
-#include <ssphh/core/sphere.h>
 #include <ssphh/image/io.h>
 #include <ssphh/scene/with_lighting.h>
 #include <ssphh/scene_io/renderer_export.h>
@@ -18,36 +15,16 @@
 namespace ssphh::app {
 namespace {
 
-/// Cameras for the six faces; faces are seen from outside in OpenGL's orientation, so their pictures are
-/// mirrored.
-json::Value cube_cameras(const vec3& position) {
-  json::Value cameras = json::Value::array();
-  for (int face = 0; face < 6; ++face) {
-    const vec3 ahead = cube_direction(CubePoint{face, 0.5f, 0.5f});
-    const vec3 left = glm::normalize(cube_direction_unnormalized(CubePoint{face, 1, 0.5f}) - ahead);
-    const vec3 up = glm::normalize(cube_direction_unnormalized(CubePoint{face, 0.5f, 0}) - ahead);
-    json::Value rows = json::Value::array();
-    for (int r = 0; r < 3; ++r) rows.push_back({-left[r], up[r], -ahead[r], position[r]});
-    rows.push_back({0, 0, 0, 1});
-    cameras.push_back(std::move(rows));
-  }
-  return cameras;
-}
-
 image::CubeMap read_faces(const std::filesystem::path& folder, const char* part, int size) {
-  image::CubeMap cube(size);
-  for (std::size_t face = 0; face < 6; ++face) {
+  std::vector<image::Image> pictures;
+  for (int face = 0; face < 6; ++face) {
     const std::filesystem::path file = folder / fmt::format("{}{:04}.exr", part, face);
     if (!std::filesystem::exists(file))
       throw Error("blender", fmt::format("wrote no {}; blender.log beside it says why", file.string()));
-    const image::Image picture = image::read_image(file);
-    require(picture.width == size && picture.height == size && picture.channels >= 3, "blender",
-            "its pictures are of another size than was asked for");
-    for (int y = 0; y < size; ++y) {
-      for (int x = 0; x < size; ++x) cube.faces[face].set_rgb(x, y, picture.rgb(size - 1 - x, y));
-    }
+    pictures.push_back(image::read_image(file));
+    require(pictures.back().width == size, "blender", "its pictures are of another size than was asked for");
   }
-  return cube;
+  return image::cube_of_views(pictures);
 }
 
 }  // namespace
@@ -93,18 +70,17 @@ rays::GroupRadiance CyclesSource::render(const scene::Scene& lit, const rays::Cu
                                          const Control& control) const {
   scene_io::ExportSettings settings;
   settings.time = time_;
+  settings.cube_at = request.position;
   settings.width = settings.height = request.face_size;
   settings.max_depth = request.path.max_depth;
   settings.spp = request.path.spp * request.path.passes;
   std::filesystem::remove_all(options_.work / "scene");
   const scene_io::ExportReport report = scene_io::export_cycles(lit, settings, options_.work / "scene");
-  const std::filesystem::path cube = options_.work / "scene/cube.json",
-                              pictures = options_.work / "scene/cube";
-  write_file(cube, print(cube_cameras(request.position)));
-  run_blender(
-      report.files.front(),
-      {"--cube", cube.string(), "--output", pictures.string(), "--seed", blender_seed(request.path.seed)},
-      options_, control);
+  const std::filesystem::path pictures = options_.work / "scene/cube";
+  run_blender(report.files.front(),
+              {"--cube", (options_.work / "scene/cube.json").string(), "--output", pictures.string(),
+               "--seed", blender_seed(request.path.seed)},
+              options_, control);
   return {read_faces(pictures, "emitted", request.face_size),
           settings.max_depth > 0 ? read_faces(pictures, "reflected", request.face_size)
                                  : image::CubeMap(request.face_size)};
@@ -125,18 +101,9 @@ std::vector<image::CubeMap> CyclesSource::ghost_radiance(const rays::CubeRequest
   if (sink) throw Error("--renderer cycles", "tells of no single paths", "leave out --viz-transfer");
   if (request.paths != rays::PathSet::all)
     throw Error("--renderer cycles", "cannot leave out paths", "leave out --viz-paths");
-  scene::Scene dark = with_group_alone(light_groups().size());
-  dark.lights.clear();
-  dark.environment.reset();
   std::vector<image::CubeMap> cubes;
   for (const rays::GhostSphere& ghost : ghosts) {
-    scene::Scene lit = dark;
-    scene::Light& light = lit.lights.emplace_back();
-    light.name = "ghost", light.type = scene::LightType::sphere;
-    light.radius = ghost.radius, light.intensity = 1;
-    light.node = static_cast<int>(lit.nodes.size());
-    scene::Node& node = lit.nodes.emplace_back();
-    node.name = light.name, node.local.translation = ghost.center;
+    const scene::Scene lit = scene::lit_by_sphere(scene_, time_, ghost.center, ghost.radius, 1);
     rays::GroupRadiance seen = render(lit, request, control);
     for (std::size_t f = 0; f < 6; ++f) {
       std::vector<float>& sum = seen.emitted.faces[f].pixels;

@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <ssphh/core/counted.h>
+#include <ssphh/scene/with_lighting.h>
 #include <ssphh/scene_io/gltf_export.h>
 
 #include "commands/command.h"
@@ -22,9 +24,50 @@ scene_io::ExportReport write_gltf(const scene::Scene& scene, const std::filesyst
   return report;
 }
 
+void check_options(const ExportOptions& o) {
+  if (std::ranges::count(export_formats(), o.to) == 0)
+    throw Error("--to " + o.to, "is no format that there is");
+  const bool cube = o.projection == PictureProjection::cube;
+  if (!o.at.empty() && !cube) throw Error("--at", "is the place of a cube", "add --projection cube");
+  if (o.to == "gltf" && (cube || !o.viz_from.empty()))
+    throw Error("--to gltf", "holds the scene, no picture of it",
+                "leave out --projection and --viz-from, or choose a renderer");
+}
+
+scene_io::ExportSettings settings_of(const ExportOptions& o, const scene::Scene& scene) {
+  scene_io::ExportSettings settings = export_settings(o.picture, scene);
+  if (o.projection != PictureProjection::cube) return settings;
+  settings.cube_at = o.at.empty() ? vec3(settings.camera.world[3]) : place_of(scene, o.at, settings.time);
+  settings.width = settings.height = o.face_size;
+  settings.shows_emitters = !o.viz_from.empty() || settings.max_depth == 0;
+  return settings;
+}
+
+// Lit by the sphere of that SPHL alone.
+scene::Scene viz_scene(const ExportOptions& o, const scene::Scene& scene,
+                       const scene_io::ExportSettings& settings) {
+  const std::vector<scene::ProbePlace> places = scene::sphl_places(scene, settings.time);
+  const auto from = std::ranges::find(places, o.viz_from, &scene::ProbePlace::name);
+  if (from == places.end()) {
+    std::vector<std::string> names;
+    for (const scene::ProbePlace& place : places) names.push_back(place.name);
+    throw Error("--viz-from " + o.viz_from, "is no SPHL of the scene",
+                names.empty() ? "the scene has none" : fmt::format("its SPHLs: {}", fmt::join(names, ", ")));
+  }
+  if (settings.cube_at && glm::distance(*settings.cube_at, from->position) <= from->radius)
+    throw Error("--at " + o.at,
+                fmt::format("lies within the sphere of \"{}\", of radius {:g} m", from->name, from->radius),
+                "VIZ looks at a sphere from outside");
+  return scene::lit_by_sphere(scene, settings.time, from->position, from->radius,
+                              probes::emitter_radiance(o.viz_source, from->radius));
+}
+
 scene_io::ExportReport write(const ExportOptions& o, const scene::Scene& scene) {
   for (const scene_io::RendererFormat& format : scene_io::renderer_formats()) {
-    if (format.name == o.to) return format.write(scene, export_settings(o.picture, scene), o.output);
+    if (format.name != o.to) continue;
+    const scene_io::ExportSettings settings = settings_of(o, scene);
+    if (o.viz_from.empty()) return format.write(scene, settings, o.output);
+    return format.write(viz_scene(o, scene, settings), settings, o.output);
   }
   return write_gltf(scene, o.output);
 }
@@ -39,8 +82,7 @@ std::vector<std::string> export_formats() {
 }
 
 ExportResult run_export(const ExportOptions& o, const Control&) {
-  if (std::ranges::count(export_formats(), o.to) == 0)
-    throw Error("--to " + o.to, "is no format that there is");
+  check_options(o);
   const scene::Scene scene =  // a copy as glTF is no picture, and stays as it was
       o.to == "gltf" ? load_scene(o.picture.scene) : load_lit_scene(o.picture.scene);
   return {write(o, scene), scene::triangle_count(scene), scene::scene_hash(scene)};
@@ -79,6 +121,19 @@ void add_export_command(Command app, Context& context) {
       .required()
       .one_of(export_formats());
   command.option("-o,--output", o.output, "Folder to write into; for gltf also FILE.glb").required();
+
+  const Command probes = command.under("Pictures for a probe");
+  probes.choice(
+      "--projection", o.projection,
+      "camera; or cube: six pictures of 90 degrees around a place, without lamps and sky themselves, "
+      "for `ssphh probe import` (docs/export.md)",
+      {"camera", "cube"});
+  add_at_option(probes, o.at);
+  probes.option("--face", o.face_size, "Pixels along a face of the cube").range(1, 4096);
+  probes.option("--viz-from", o.viz_from,
+                "Light the scene by the sphere of this SPHL alone, as VIZ does, and show the sphere too");
+  probes.choice("--viz-source", o.viz_source,
+                "What that sphere sends out: total intensity 1 (the paper's), or radiance 1");
 }
 
 }  // namespace ssphh::app

@@ -1,7 +1,9 @@
 #pragma once
 /// `ssphh probe import`: the light of a probe from a picture of the sphere around it, by whatever renderer.
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <ssphh/core/control.h>
 #include <ssphh/core/json.h>
@@ -21,9 +23,17 @@ constexpr auto enum_table(LightPart) {
 }
 
 struct ProbeImportOptions {
-  std::string input;  ///< picture, linear radiance [W sr⁻¹ m⁻²]
-  image::Layout layout = image::Layout::cross_v;
-  std::string sphl;           ///< probe that the picture is of, by name
+  /// Linear radiance [W sr⁻¹ m⁻²]: one picture of the whole sphere, or those of the six cameras of
+  /// scene_io::cube_cameras().
+  std::vector<std::string> images;
+  std::optional<image::Layout> layout;  ///< of one picture
+  /// As `images`, lamps and sky alone, which `images` show as well: taken off them, and the emitted part.
+  std::vector<std::string> emitted;
+  /// SPHL whose sphere is all that shines in the pictures, as VIZ has it: they become an edge of the set;
+  /// empty: they are light.
+  std::string viz_from;
+  probes::VizSource viz_source = probes::VizSource::intensity;  ///< how bright that sphere was
+  std::string sphl;                                             ///< probe that the pictures are of, by name
   SceneOptions scene;         ///< whose SPHLs a new set has, dark at first; no source: `into` has them
   std::string into;           ///< probe file whose set gets the light; empty: the scene's
   std::string group = "all";  ///< light group; one that the set lacks is added
@@ -38,8 +48,9 @@ struct ProbeImportResult {
   int face_size = 0;  ///< pixels of the cube that was projected
 };
 
-/// Throws Error for pictures of another shape than the layout's and for numbers that are not finite or
-/// negative, for a probe that there is not, where neither or both of scene and set are given, and for files.
+/// Throws Error for pictures that are neither one of a layout nor six faces, for numbers that are not finite
+/// or negative, for a probe that there is not, for an edge beside edges of another VizSource, where neither
+/// or both of scene and set are given, and for files.
 ProbeImportResult run_probe_import(const ProbeImportOptions& options, const Control& control = {});
 json::Value to_json(const ProbeImportResult& result, const ProbeImportOptions& options);
 std::string to_text(const ProbeImportResult& result, const ProbeImportOptions& options);

@@ -27,22 +27,6 @@ std::filesystem::path checkpoint_path(const RenderOptions& o) {
   return o.output + ".state";
 }
 
-// A SPHL by its name, or "X,Y,Z".
-vec3 place_of(const scene::Scene& scene, const std::string& text, float time) {
-  std::string names;
-  for (const scene::ProbePlace& sphl : scene::sphl_places(scene, time)) {
-    if (sphl.name == text) return sphl.position;
-    names += (names.empty() ? "" : ", ") + sphl.name;
-  }
-  vec3 place;
-  int end = 0;
-  const int read = std::sscanf(text.c_str(), "%f,%f,%f%n", &place.x, &place.y, &place.z, &end);
-  if (read == 3 && end == static_cast<int>(text.size()) && std::isfinite(place.x + place.y + place.z))
-    return place;
-  throw Error("--at " + text, "is neither a SPHL of the scene nor X,Y,Z",
-              names.empty() ? "the scene has no SPHLs" : "its SPHLs: " + names);
-}
-
 trace::RenderParams render_params(const RenderOptions& o, const scene::Scene& scene,
                                   const trace::SharedGeometry& geometry) {
   trace::RenderParams params;

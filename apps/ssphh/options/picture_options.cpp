@@ -1,6 +1,7 @@
 #include "options/picture_options.h"
 
 #include <cmath>
+#include <cstdio>
 
 #include <fmt/format.h>
 
@@ -15,6 +16,12 @@ void add_camera_option(Command command, std::string& camera) {
 void add_size_options(Command command, int& width, int& height, int most) {
   command.option("--width", width, "Pixels").range(1, most);
   command.option("--height", height, "Pixels").range(1, most);
+}
+
+void add_at_option(Command command, std::string& at) {
+  command.option(
+      "--at", at,
+      "Place of the sphere, its axes the world's: a SPHL by name, or X,Y,Z; default: the camera's");
 }
 
 Option add_max_depth_option(Command command, int& max_depth) {
@@ -41,6 +48,21 @@ void add_picture_options(Command command, PictureOptions& o) {
   add_size_options(command, o.width, o.height, 65536);
   add_max_depth_option(command, o.max_depth);
   command.option("--spp", o.spp, "Samples per pixel").range(2, 1 << 20);
+}
+
+vec3 place_of(const scene::Scene& scene, const std::string& text, float time) {
+  std::string names;
+  for (const scene::ProbePlace& sphl : scene::sphl_places(scene, time)) {
+    if (sphl.name == text) return sphl.position;
+    names += (names.empty() ? "" : ", ") + sphl.name;
+  }
+  vec3 place;
+  int end = 0;
+  const int read = std::sscanf(text.c_str(), "%f,%f,%f%n", &place.x, &place.y, &place.z, &end);
+  if (read == 3 && end == static_cast<int>(text.size()) && std::isfinite(place.x + place.y + place.z))
+    return place;
+  throw Error("--at " + text, "is neither a SPHL of the scene nor X,Y,Z",
+              names.empty() ? "the scene has no SPHLs" : "its SPHLs: " + names);
 }
 
 scene_io::ExportSettings export_settings(const PictureOptions& o, const scene::Scene& scene) {

@@ -19,6 +19,10 @@ using pipeline::PictureProjection;
 void add_camera_option(Command command, std::string& camera);
 /// --width and --height in pixels, each at most `most`.
 void add_size_options(Command command, int& width, int& height, int most = 16384);
+/// --at of a picture of the whole sphere.
+void add_at_option(Command command, std::string& at);
+/// Where an SPHL of that name stands at a time, or "X,Y,Z" [m]. Throws Error that lists the SPHLs.
+vec3 place_of(const scene::Scene& scene, const std::string& text, float time);
 Option add_max_depth_option(Command command, int& max_depth);
 /// --exposure auto|EV; none stands for auto.
 void add_exposure_option(Command command, std::optional<float>& exposure, const std::string& help);

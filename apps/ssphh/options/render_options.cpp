@@ -45,9 +45,7 @@ void add_render_options(Command command, RenderOptions& o) {
   command.choice(
       "--projection", o.projection,
       "camera; or the whole sphere at its position: equirect, or cube (6×1 strip, width = 6 × height)");
-  command.option(
-      "--at", o.at,
-      "Place of the sphere, its axes the world's: a SPHL by name, or X,Y,Z; default: the camera's");
+  add_at_option(command, o.at);
 
   const Command paths = command.under("Light paths");
   add_max_depth_option(paths, o.max_depth);

@@ -35,6 +35,20 @@ vec3 cube_texel(const CubeMap& cube, int face, int x, int y) {
          3.0f;
 }
 
+CubeMap cube_of_views(std::span<const Image> pictures) {
+  require(pictures.size() == 6, "cube map", "it has six faces");
+  CubeMap cube(pictures[0].width);
+  for (std::size_t f = 0; f < 6; ++f) {
+    const Image& picture = pictures[f];
+    require(picture.width == cube.size && picture.height == cube.size && cube.size > 0, "cube map",
+            "its pictures must be square and of one size");
+    require(picture.channels >= 3, "cube map", "its pictures are grey");
+    for (int y = 0; y < cube.size; ++y)
+      for (int x = 0; x < cube.size; ++x) cube.faces[f].set_rgb(x, y, picture.rgb(cube.size - 1 - x, y));
+  }
+  return cube;
+}
+
 vec3 sample_cube(const CubeMap& cube, const vec3& direction) {
   require(cube.size > 0, "cube map", "it is empty");
   if (!is_finite(direction)) return vec3(std::numeric_limits<float>::quiet_NaN());

@@ -272,5 +272,26 @@ TEST(SphereMean, IsNotThePixelMean) {
   EXPECT_NEAR(energy(cube, Layout::strip_h).x / (4 * pi_d), 3, 1e-3);
 }
 
+TEST(CubeOfViews, MirrorsEachPictureAndRefusesWhatIsNoFace) {
+  std::vector<Image> pictures;
+  for (int f = 0; f < 6; ++f) {
+    Image& picture = pictures.emplace_back(2, 2, f == 3 ? 4 : 3);
+    for (int y = 0; y < 2; ++y)
+      for (int x = 0; x < 2; ++x) picture.set_rgb(x, y, vec3(f, x, y));
+  }
+  const CubeMap cube = cube_of_views(pictures);
+  EXPECT_EQ(cube.size, 2);
+  for (int f = 0; f < 6; ++f)
+    for (int y = 0; y < 2; ++y)
+      for (int x = 0; x < 2; ++x) EXPECT_EQ(cube.faces[f].rgb(x, y), vec3(f, 1 - x, y));
+  for (const Image& wrong : {Image(2, 3, 3), Image(3, 3, 3), Image(2, 2, 1)}) {
+    std::vector<Image> others = pictures;
+    others[5] = wrong;
+    EXPECT_THROW(cube_of_views(others), Error);
+  }
+  pictures.pop_back();
+  EXPECT_THROW(cube_of_views(pictures), Error);
+}
+
 }  // namespace
 }  // namespace ssphh::image

@@ -1,5 +1,7 @@
+#include <cmath>
 #include <limits>
 
+#include <ssphh/core/require.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/scene/with_lighting.h>
 
@@ -59,6 +61,22 @@ Scene with_lighting(Scene scene, const LightingState& state) {
     }
   }
   return scene;
+}
+
+Scene lit_by_sphere(const Scene& scene, float time, const vec3& center, float radius, float radiance) {
+  require(radius > 0 && std::isfinite(radius), "emitting sphere", "its radius must be over 0");
+  LightingState dark = lighting_at(scene, time);
+  for (vec3& scale : dark.group_scales) scale = vec3(0);
+  Scene lit = with_lighting(scene, dark);
+  lit.lights.clear();
+  lit.environment.reset();
+  Light& light = lit.lights.emplace_back();
+  light.name = "emitter", light.type = LightType::sphere;
+  light.radius = radius, light.intensity = radiance;
+  light.node = static_cast<int>(lit.nodes.size());
+  Node& node = lit.nodes.emplace_back();
+  node.name = light.name, node.local.translation = center;
+  return lit;
 }
 
 }  // namespace ssphh::scene

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <ssphh/scene/builtin.h>
@@ -191,6 +192,32 @@ TEST(ExportCorona, TheCameraSeesTheSamePicture) {
     EXPECT_NEAR(0.5f + 0.5f * glm::dot(d, right) / z / t, ours.x, 1e-4f);
     EXPECT_NEAR(0.5f - 0.5f * glm::dot(d, glm::cross(right, forward)) / z / t * 64 / 36, ours.y, 1e-4f);
   }
+}
+
+// A scene file for each face, which share materials, settings and geometry.
+TEST(ExportCorona, ACubeMapHasASceneForEachFace) {
+  const TempDir dir;
+  const scene_io::ExportReport report =
+      scene_io::export_corona(scene_of_everything(), cube_settings(), dir.path());
+  const std::string mtl = read_text_file(dir / "scene.mtl");
+  for (std::size_t face = 0; face < 6; ++face) {
+    EXPECT_EQ(report.files[face], dir / fmt::format("face{}.scn", face));
+    const std::string scn = read_text_file(report.files[face]);
+    CoronaFiles e{report, XmlReader(scn).document(), XmlReader(mtl).document()};
+    check(e, dir.path());
+    const XmlElement& camera = e.scn.child("camera");
+    const auto vector = [&](const char* name) {
+      const std::vector<float> v = numbers_of(camera.child(name).text);
+      return vec3(v.at(0), v.at(1), v.at(2));
+    };
+    const vec3 ahead = vector("target") - vector("origin"), up = vector("roll");
+    expect_camera_of_face(face, vector("origin"), ahead, glm::cross(ahead, up), up);
+    EXPECT_NEAR(numbers_of(camera.child("fov").text)[0], 90, 1e-4f);
+  }
+  EXPECT_THAT(read_text_file(dir / "scene.conf"),
+              testing::HasSubstr("Int image.width = 16\nInt image.height = 16\n"));
+  EXPECT_THAT(report.command, testing::HasSubstr("face$f.scn"));
+  EXPECT_EQ(differences_with(report, "lamps and sky are in the pictures").size(), 1u);
 }
 
 TEST(ExportCorona, RefusesAnOrthographicCamera) {

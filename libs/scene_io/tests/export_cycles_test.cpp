@@ -1,5 +1,6 @@
 // What Blender's scripts read: scene.json and scene.bin, against the scene they were made from.
 
+#include <algorithm>
 #include <cstring>
 
 #include <gtest/gtest.h>
@@ -58,6 +59,19 @@ TEST_F(ExportCycles, PictureAndCameraAreTheSettings) {
   EXPECT_EQ(camera["orthographic"], false);
   EXPECT_EQ(float_of(camera["yfov"]), 0.9f);
   EXPECT_EQ(float_of(camera["yheight"]), settings_.camera.camera.yheight);
+}
+
+TEST_F(ExportCycles, ACubeMapIsAListOfCameras) {
+  const scene_io::ExportReport report = scene_io::export_cycles(scene_, cube_settings(), dir_.path());
+  const json::Value cameras = parse_json(read_text_file(dir_ / "cube.json"));
+  ASSERT_EQ(cameras.size(), 6u);
+  for (std::size_t face = 0; face < 6; ++face) {
+    const mat4 world = matrix(cameras[face]);
+    expect_camera_of_face(face, vec3(world[3]), -vec3(world[2]), vec3(world[0]), vec3(world[1]));
+  }
+  EXPECT_EQ(std::ranges::count(report.files, dir_ / "cube.json"), 1);
+  EXPECT_NE(report.command.find("--cube " + (dir_ / "cube.json").string()), std::string::npos);
+  EXPECT_TRUE(differences_with(report, "lamps and sky").empty()) << "its pictures are apart";
 }
 
 TEST_F(ExportCycles, LightsAreInWorldSpace) {

@@ -167,6 +167,26 @@ std::vector<vec3> directions_around() {
   return result;
 }
 
+scene_io::ExportSettings cube_settings() {
+  scene_io::ExportSettings settings = export_settings();
+  settings.cube_at = vec3(0.5f, -0.25f, 2);
+  settings.width = settings.height = 16;
+  settings.shows_emitters = false;
+  return settings;
+}
+
+void expect_camera_of_face(std::size_t face, const vec3& place, const vec3& ahead, const vec3& right,
+                           const vec3& up) {
+  const vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+  const vec3 centers[] = {x, -x, y, -y, z, -z}, face_right[] = {-z, z, x, x, x, -x},
+             face_down[] = {-y, -y, z, -z, -y, -y};
+  ASSERT_LT(face, 6u);
+  EXPECT_LT(glm::distance(place, vec3(0.5f, -0.25f, 2)), 1e-5f) << face;
+  EXPECT_LT(glm::distance(ahead, centers[face]), 1e-5f) << face;
+  EXPECT_LT(glm::distance(right, -face_right[face]), 1e-5f) << face;
+  EXPECT_LT(glm::distance(up, -face_down[face]), 1e-5f) << face;
+}
+
 Ply read_ply(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_file(path);
   const std::string all(reinterpret_cast<const char*>(bytes.data()), bytes.size());

@@ -41,6 +41,14 @@ vec3 environment_radiance(const scene::Environment& environment, const vec3& dir
 /// Directions all around.
 std::vector<vec3> directions_around();
 
+/// export_settings() of a cube map at (0.5, −0.25, 2), 16 pixels along a face.
+scene_io::ExportSettings cube_settings();
+
+/// That a camera is the one for a face of that cube map: docs/conventions.md says where the face looks and
+/// what is right and down on it; the camera sees it from inside, mirrored.
+void expect_camera_of_face(std::size_t face, const vec3& place, const vec3& ahead, const vec3& right,
+                           const vec3& up);
+
 struct Ply {
   std::vector<std::string> properties;  ///< of a vertex
   std::vector<std::vector<float>> vertices;

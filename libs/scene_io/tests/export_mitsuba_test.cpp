@@ -128,11 +128,11 @@ class Checker {
  public:
   explicit Checker(std::filesystem::path directory) : directory_(std::move(directory)) {}
 
-  void check_scene(const XmlElement& scene) {
+  void check_scene(const XmlElement& scene, std::size_t cameras = 1) {
     EXPECT_EQ(scene.name, "scene");
     EXPECT_EQ(scene.attributes.size(), 1u);
     EXPECT_THAT(scene.at("version"), testing::MatchesRegex("3\\.[0-9]\\.[0-9]"));
-    EXPECT_EQ(scene.all("sensor").size(), 1u);
+    EXPECT_EQ(scene.all("sensor").size(), cameras);
     EXPECT_EQ(scene.all("integrator").size(), 1u);
     for (const XmlElement& c : scene.children) check_plugin(c);
   }
@@ -274,6 +274,28 @@ TEST(ExportMitsuba, TheCameraSeesTheSamePicture) {
       EXPECT_NEAR(place.y, ours.y, 1e-4f);
     }
   }
+}
+
+// A sensor for each face, in one file: --sensor chooses.
+TEST(ExportMitsuba, ACubeMapHasASensorForEachFace) {
+  const TempDir dir;
+  const MitsubaFiles e = mitsuba_files(scene_of_everything(), cube_settings(), dir);
+  Checker(dir.path()).check_scene(e.scene, 6);
+  EXPECT_EQ(parameter(e.scene.child("integrator"), "hide_emitters")->at("value"), "true");
+  std::size_t face = 0;
+  for (const XmlElement* sensor : e.scene.all("sensor")) {
+    const mat4 world = matrix_of(*parameter(*sensor, "to_world"));
+    expect_camera_of_face(face++, vec3(world[3]), vec3(world[2]), -vec3(world[0]), vec3(world[1]));
+    EXPECT_EQ(parameter(*sensor, "fov")->at("value"), "90");
+    const XmlElement& film = sensor->child("film");
+    for (const char* side : {"width", "height"}) EXPECT_EQ(parameter(film, side)->at("value"), "16");
+  }
+  EXPECT_THAT(e.report.command, testing::HasSubstr("-s $f -o face$f.exr " + (dir / "scene.xml").string()));
+  const TempDir seen;
+  scene_io::ExportSettings settings = cube_settings();
+  settings.shows_emitters = true;
+  const MitsubaFiles with = mitsuba_files(scene_of_everything(), settings, seen);
+  EXPECT_EQ(parameter(with.scene.child("integrator"), "hide_emitters"), nullptr);
 }
 
 // emitters/envmap.cpp: u = atan2(x, -z)/2π, v = acos(y)/π; columns are centres, rows reach from pole to pole.

@@ -3,115 +3,18 @@
 #include <map>
 #include <set>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <ssphh/image/io.h>
 #include <ssphh/scene/builtin.h>
 
 #include "export_fixture.h"
+#include "pbrt_reader.h"
 #include "temp_dir.h"
 
 namespace ssphh::test {
 namespace {
-
-struct Parameter {
-  std::string type;
-  std::vector<std::string> strings;
-  std::vector<float> numbers;
-};
-
-struct Statement {
-  std::string directive;
-  std::vector<std::string> names;  ///< quoted, before the parameters
-  std::vector<float> numbers;      ///< not in a parameter
-  std::map<std::string, Parameter> parameters;
-
-  const Parameter& at(const std::string& name) const {
-    const auto found = parameters.find(name);
-    if (found == parameters.end()) throw std::runtime_error(directive + " has no " + name);
-    return found->second;
-  }
-  vec3 vector(const std::string& name) const {
-    const std::vector<float>& v = at(name).numbers;
-    return v.size() == 3 ? vec3(v[0], v[1], v[2]) : throw std::runtime_error(name + " is not three numbers");
-  }
-};
-
-std::vector<std::string> tokens_of(const std::string& text) {
-  std::vector<std::string> tokens;
-  for (std::size_t i = 0; i < text.size();) {
-    const char c = text[i];
-    if (c == '#') {
-      while (i < text.size() && text[i] != '\n') ++i;
-    } else if (std::isspace(static_cast<unsigned char>(c))) {
-      ++i;
-    } else if (c == '[' || c == ']') {
-      tokens.emplace_back(1, c), ++i;
-    } else if (c == '"') {
-      const std::size_t end = text.find_first_of("\"\n\\", i + 1);
-      if (end == std::string::npos || text[end] != '"') throw std::runtime_error("a string without an end");
-      tokens.push_back(text.substr(i, end - i + 1)), i = end + 1;
-    } else {
-      const std::size_t begin = i;
-      while (i < text.size() && !std::isspace(static_cast<unsigned char>(text[i])) &&
-             std::string("#[]\"").find(text[i]) == std::string::npos)
-        ++i;
-      tokens.push_back(text.substr(begin, i - begin));
-    }
-  }
-  return tokens;
-}
-
-bool is_string(const std::string& token) {
-  return token.front() == '"';
-}
-std::string unquoted(const std::string& token) {
-  return token.substr(1, token.size() - 2);
-}
-
-std::vector<Statement> parse(const std::string& text) {
-  // How many names stand before the parameters.
-  static const std::map<std::string, std::size_t> directives = {
-      {"Transform", 0},         {"Camera", 1},        {"Film", 1},
-      {"PixelFilter", 1},       {"Sampler", 1},       {"Integrator", 1},
-      {"WorldBegin", 0},        {"LightSource", 1},   {"Texture", 3},
-      {"MakeNamedMaterial", 1}, {"NamedMaterial", 1}, {"Material", 1},
-      {"AreaLightSource", 1},   {"Shape", 1},         {"AttributeBegin", 0},
-      {"AttributeEnd", 0},      {"Translate", 0}};
-  std::vector<Statement> statements;
-  const std::vector<std::string> tokens = tokens_of(text);
-  for (std::size_t i = 0; i < tokens.size();) {
-    const auto known = directives.find(tokens[i]);
-    if (known == directives.end()) throw std::runtime_error("no directive: " + tokens[i]);
-    Statement s;
-    s.directive = tokens[i++];
-    while (s.names.size() < known->second) s.names.push_back(unquoted(tokens.at(i++)));
-    while (i < tokens.size() && !directives.contains(tokens[i])) {
-      if (!is_string(tokens[i])) {
-        if (tokens[i] != "[" && tokens[i] != "]") s.numbers.push_back(numbers_of(tokens[i]).at(0));
-        ++i;
-        continue;
-      }
-      std::istringstream declaration(unquoted(tokens[i++]));
-      std::string name;
-      Parameter p;
-      declaration >> p.type >> name;
-      if (tokens.at(i++) != "[") throw std::runtime_error(name + ": no values");
-      for (; tokens.at(i) != "]"; ++i) {
-        if (is_string(tokens[i]))
-          p.strings.push_back(unquoted(tokens[i]));
-        else if (p.type == "bool")
-          p.strings.push_back(tokens[i]);
-        else
-          p.numbers.push_back(numbers_of(tokens[i]).at(0));
-      }
-      ++i;
-      if (!s.parameters.emplace(name, p).second) throw std::runtime_error(name + " twice");
-    }
-    statements.push_back(std::move(s));
-  }
-  return statements;
-}
 
 /// Types of the parameters of each implementation; several types are separated by blanks.
 const std::map<std::string, std::map<std::string, std::string>>& implementations() {
@@ -159,7 +62,7 @@ const std::map<std::string, std::map<std::string, std::string>>& implementations
   return table;
 }
 
-void check_parameters(const Statement& s, const std::string& key, const std::filesystem::path& directory,
+void check_parameters(const PbrtStatement& s, const std::string& key, const std::filesystem::path& directory,
                       const std::map<std::string, std::string>& textures) {
   const auto known = implementations().find(key);
   ASSERT_NE(known, implementations().end()) << key;
@@ -194,12 +97,12 @@ void check_parameters(const Statement& s, const std::string& key, const std::fil
   }
 }
 
-void check_scene(const std::vector<Statement>& statements, const std::filesystem::path& directory) {
+void check_scene(const std::vector<PbrtStatement>& statements, const std::filesystem::path& directory) {
   std::map<std::string, std::string> textures;
   std::set<std::string> materials;
   bool world = false;
   int depth = 0;
-  for (const Statement& s : statements) {
+  for (const PbrtStatement& s : statements) {
     const bool is_option =
         std::set<std::string>{"Camera", "Film", "PixelFilter", "Sampler", "Integrator"}.contains(s.directive);
     if (is_option) {
@@ -241,23 +144,23 @@ void check_scene(const std::vector<Statement>& statements, const std::filesystem
   EXPECT_EQ(depth, 0);
 }
 
-std::vector<Statement> pbrt_statements(const scene::Scene& scene, const scene_io::ExportSettings& settings,
-                                       const TempDir& dir) {
+std::vector<PbrtStatement> pbrt_statements(const scene::Scene& scene,
+                                           const scene_io::ExportSettings& settings, const TempDir& dir) {
   const scene_io::ExportReport report = scene_io::export_pbrt(scene, settings, dir.path());
   for (const auto& file : report.files) EXPECT_TRUE(std::filesystem::is_regular_file(file)) << file;
-  return parse(read_text_file(dir / "scene.pbrt"));
+  return parse_pbrt(read_text_file(dir / "scene.pbrt"));
 }
 
-const Statement& find(const std::vector<Statement>& statements, const std::string& directive,
-                      const std::string& name = "") {
-  for (const Statement& s : statements)
+const PbrtStatement& find(const std::vector<PbrtStatement>& statements, const std::string& directive,
+                          const std::string& name = "") {
+  for (const PbrtStatement& s : statements)
     if (s.directive == directive && (name.empty() || s.names.at(0) == name)) return s;
   throw std::runtime_error("no " + directive + " " + name);
 }
 
 TEST(ExportPbrt, EveryStatementIsDocumented) {
   const TempDir dir;
-  const std::vector<Statement> s = pbrt_statements(scene_of_everything(), export_settings(), dir);
+  const std::vector<PbrtStatement> s = pbrt_statements(scene_of_everything(), export_settings(), dir);
   check_scene(s, dir.path());
   EXPECT_EQ(find(s, "Integrator").at("maxdepth").numbers, std::vector<float>{3});
 }
@@ -278,11 +181,11 @@ TEST(ExportPbrt, TheCameraSeesTheSamePicture) {
     const TempDir dir;
     scene_io::ExportSettings settings = export_settings();
     settings.camera.camera.orthographic = orthographic, settings.camera.camera.yheight = 5;
-    const std::vector<Statement> s = pbrt_statements(scene::make_builtin("box"), settings, dir);
+    const std::vector<PbrtStatement> s = pbrt_statements(scene::make_builtin("box"), settings, dir);
     mat4 m;
     for (int i = 0; i < 16; ++i)
       m[i / 4][i % 4] = find(s, "Transform").numbers.at(static_cast<std::size_t>(i));
-    const Statement& camera = find(s, "Camera");
+    const PbrtStatement& camera = find(s, "Camera");
     const std::vector<float>& window = camera.at("screenwindow").numbers;
     ASSERT_EQ(window.size(), 4u);
     for (const vec3& p : visible_points()) {
@@ -297,6 +200,37 @@ TEST(ExportPbrt, TheCameraSeesTheSamePicture) {
       EXPECT_NEAR(place.y, ours.y, 1e-4f);
     }
   }
+}
+
+// A file for each face, which includes the world.
+TEST(ExportPbrt, ACubeMapHasAFileForEachFace) {
+  const TempDir dir;
+  const scene_io::ExportReport report =
+      scene_io::export_pbrt(scene_of_everything(), cube_settings(), dir.path());
+  for (const auto& file : report.files) EXPECT_TRUE(std::filesystem::is_regular_file(file)) << file;
+  const std::string world = read_text_file(dir / "world.pbrt"), include = "Include \"world.pbrt\"\n";
+  for (std::size_t face = 0; face < 6; ++face) {
+    EXPECT_EQ(report.files[face], dir / fmt::format("face{}.pbrt", face));
+    std::string text = read_text_file(report.files[face]);
+    ASSERT_TRUE(text.ends_with(include));
+    text.replace(text.size() - include.size(), include.size(), world);
+    const std::vector<PbrtStatement> s = parse_pbrt(text);
+    check_scene(s, dir.path());
+    const PbrtStatement& film = find(s, "Film");
+    EXPECT_EQ(film.at("filename").strings[0], fmt::format("face{}.exr", face));
+    for (const char* side : {"xresolution", "yresolution"}) EXPECT_EQ(film.at(side).numbers[0], 16);
+    const PbrtStatement& camera = find(s, "Camera");
+    EXPECT_EQ(camera.at("fov").numbers[0], 90);
+    EXPECT_EQ(camera.at("screenwindow").numbers, (std::vector<float>{-1, 1, -1, 1}));
+    mat4 to_camera;
+    for (int i = 0; i < 16; ++i)
+      to_camera[i / 4][i % 4] = find(s, "Transform").numbers.at(static_cast<std::size_t>(i));
+    const mat4 to_world = glm::inverse(to_camera);
+    expect_camera_of_face(face, vec3(to_world[3]), vec3(to_world[2]), vec3(to_world[0]), vec3(to_world[1]));
+  }
+  EXPECT_THAT(report.command, testing::HasSubstr("face$f.pbrt"));
+  EXPECT_THAT(differences_with(report, "lamps and sky are in the pictures").at(0),
+              testing::HasSubstr("globe"));
 }
 
 /// Clarberg's map from the sphere to the square.
@@ -314,7 +248,7 @@ vec2 equal_area_place(const vec3& d) {
 TEST(ExportPbrt, TheEnvironmentLooksTheSameInEveryDirection) {
   const TempDir dir;
   const scene::Scene scene = scene_of_everything();
-  const std::vector<Statement> s = pbrt_statements(scene, export_settings(), dir);
+  const std::vector<PbrtStatement> s = pbrt_statements(scene, export_settings(), dir);
   const image::Image image =
       image::read_image(dir / find(s, "LightSource", "infinite").at("filename").strings[0]);
   ASSERT_EQ(image.width, image.height);  // pbrt refuses others
@@ -332,17 +266,17 @@ TEST(ExportPbrt, TheEnvironmentLooksTheSameInEveryDirection) {
 TEST(ExportPbrt, LightsStandAndShineWhereTheyDoHere) {
   const TempDir dir;
   const scene::Scene scene = scene_of_everything();
-  const std::vector<Statement> s = pbrt_statements(scene, export_settings(), dir);
+  const std::vector<PbrtStatement> s = pbrt_statements(scene, export_settings(), dir);
   const std::vector<mat4> world = scene::world_matrices(scene);
   const auto place = [&](std::size_t light) { return world[scene.lights[light].node]; };
-  const Statement& point = find(s, "LightSource", "point");
+  const PbrtStatement& point = find(s, "LightSource", "point");
   EXPECT_LT(glm::distance(point.vector("from"), vec3(place(0)[3])), 1e-5f);
   EXPECT_EQ(point.vector("I"), vec3(8, 4, 2));
-  const Statement& spot = find(s, "LightSource", "spot");
+  const PbrtStatement& spot = find(s, "LightSource", "spot");
   EXPECT_LT(glm::distance(spot.vector("to") - spot.vector("from"), -vec3(place(1)[2])), 1e-5f);
   EXPECT_NEAR(spot.at("coneangle").numbers[0], glm::degrees(0.5f), 1e-4f);
   EXPECT_NEAR(spot.at("conedeltaangle").numbers[0], glm::degrees(0.3f), 1e-4f);
-  const Statement& sun = find(s, "LightSource", "distant");
+  const PbrtStatement& sun = find(s, "LightSource", "distant");
   EXPECT_LT(glm::distance(sun.vector("to") - sun.vector("from"), -vec3(place(2)[2])), 1e-5f);
   EXPECT_EQ(sun.vector("L"), vec3(8, 4, 2));
 }

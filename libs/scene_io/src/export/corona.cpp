@@ -320,21 +320,34 @@ void write_sky(Export& e, const scene::Environment& environment, const scene::Bo
   e.differences.add("environment images glow on a sphere of 1000 radii of the scene", environment.name);
 }
 
-void write_camera(Export& e) {
-  const scene::CameraPose& pose = e.settings.camera;
+void write_camera(XmlWriter& scn, const ExportSettings& settings, const scene::CameraPose& pose) {
   if (pose.camera.orthographic) {
     throw Error("--to corona", fmt::format("the camera '{}' is orthographic", pose.camera.name),
                 "choose a perspective camera with --camera: no other is documented for Corona Standalone");
   }
-  const float aspect = static_cast<float>(e.settings.width) / static_cast<float>(e.settings.height);
+  const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
   const vec3 origin(pose.world[3]);
-  e.scn.open("camera", {{"class", "perspective"}});
-  e.scn.text("origin", numbers(origin));
-  e.scn.text("target", numbers(origin - vec3(pose.world[2])));
-  e.scn.text("roll", numbers(vec3(pose.world[1])));
+  scn.open("camera", {{"class", "perspective"}});
+  scn.text("origin", numbers(origin));
+  scn.text("target", numbers(origin - vec3(pose.world[2])));
+  scn.text("roll", numbers(vec3(pose.world[1])));
   const float horizontal = 2 * std::atan(aspect * std::tan(0.5f * pose.camera.yfov));
-  e.scn.text("fov", fmt::format("{}", glm::degrees(horizontal)));
-  e.scn.close();
+  scn.text("fov", fmt::format("{}", glm::degrees(horizontal)));
+  scn.close();
+}
+
+// A file for each view, which differ in the camera alone; the first stands in place of the first of all.
+void write_views(Export& e) {
+  std::vector<std::filesystem::path> files;
+  for (const scene::CameraPose& pose : cameras_of(e.settings)) {
+    files.push_back(e.directory /
+                    (e.settings.cube_at ? fmt::format("face{}.scn", files.size()) : "scene.scn"));
+    XmlWriter scn = e.scn;
+    write_camera(scn, e.settings, pose);
+    scn.close();
+    write_file(files.back(), scn.str());
+  }
+  e.files.insert(e.files.begin(), files.begin(), files.end());
 }
 
 std::string configuration(const ExportSettings& settings) {
@@ -353,14 +366,12 @@ ExportReport export_corona(const scene::Scene& scene, const ExportSettings& sett
   begin_export(scene, settings, directory);
   const FlatScene flat = flatten(scene, settings.time);
   const scene::Bounds bounds = bounds_of(flat);
-  const std::filesystem::path file = directory / "scene.scn";
   Export e{scene, settings, directory, TextureFiles(scene, directory), XmlWriter(false), XmlWriter(false),
-           {},    {file},   0};
+           {},    {},       0};
   e.scn.open("scene");
   e.scn.text("confFile", "scene.conf");
   e.scn.text("mtlLib", "scene.mtl");
   e.mtl.open("mtlLib");
-  write_camera(e);
   if (scene.environment && scene.environment->equirect.empty())
     e.scn.text("environment", numbers(scene.environment->color));
   std::set<std::string> written;
@@ -373,15 +384,18 @@ ExportReport export_corona(const scene::Scene& scene, const ExportSettings& sett
   }
   for (std::size_t i = 0; i < flat.lights.size(); ++i) write_light(e, i, flat.lights[i], bounds);
   if (scene.environment && !scene.environment->equirect.empty()) write_sky(e, *scene.environment, bounds);
-  e.scn.close();
   e.mtl.close();
   write_file(directory / "scene.mtl", e.mtl.str());
   write_file(directory / "scene.conf", configuration(settings));
-  write_file(file, e.scn.str());
+  note_shown_emitters(scene, flat, settings, e.differences);
+  write_views(e);
 
   e.files.insert(e.files.end(), {directory / "scene.mtl", directory / "scene.conf"});
-  return end_export(std::move(e.files), e.textures, e.differences,
-                    fmt::format("Corona.exe {} -silent -oR picture.exr", file.string()));
+  const std::string command =
+      settings.cube_at ? for_each_face(fmt::format("Corona.exe {} -silent -oR face$f.exr",
+                                                   (directory / "face$f.scn").string()))
+                       : fmt::format("Corona.exe {} -silent -oR picture.exr", e.files.front().string());
+  return end_export(std::move(e.files), e.textures, e.differences, command);
 }
 
 }  // namespace ssphh::scene_io

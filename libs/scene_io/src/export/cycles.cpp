@@ -206,8 +206,17 @@ ExportReport export_cycles(const scene::Scene& scene, const ExportSettings& sett
   }
   report.files.push_back(directory / "scene.json");
   report.files.push_back(directory / "scene.bin");
-  report.command = fmt::format("blender --background --factory-startup --python {} -- --output picture.exr",
-                               (directory / "render.py").string());
+  std::string output = "--output picture.exr";
+  if (settings.cube_at) {
+    json::Value cameras = json::Value::array();
+    for (const scene::CameraPose& pose : cube_cameras(*settings.cube_at))
+      cameras.push_back(array(pose.world));
+    write_file(directory / "cube.json", json::print(cameras));
+    report.files.push_back(directory / "cube.json");
+    output = fmt::format("--cube {} --output cube", (directory / "cube.json").string());
+  }
+  report.command = fmt::format("blender --background --factory-startup --python {} -- {}",
+                               (directory / "render.py").string(), output);
   report.differences = differences.lines();
   return report;
 }

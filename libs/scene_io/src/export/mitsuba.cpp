@@ -139,11 +139,10 @@ void write_environment(Export& e, const scene::Environment& environment) {
   e.xml.close();
 }
 
-void write_camera(Export& e) {
-  const scene::Camera& camera = e.settings.camera.camera;
+void write_camera(Export& e, const scene::CameraPose& pose) {
+  const scene::Camera& camera = pose.camera;
   // Looks along +z with x to the left.
-  mat4 world = e.settings.camera.world *
-               mat4(vec4(-1, 0, 0, 0), vec4(0, 1, 0, 0), vec4(0, 0, -1, 0), vec4(0, 0, 0, 1));
+  mat4 world = pose.world * mat4(vec4(-1, 0, 0, 0), vec4(0, 1, 0, 0), vec4(0, 0, -1, 0), vec4(0, 0, 0, 1));
   e.xml.open("sensor", {{"type", camera.orthographic ? "orthographic" : "perspective"}});
   if (camera.orthographic) {
     // Sees [-1, 1] across.
@@ -190,8 +189,9 @@ ExportReport export_mitsuba(const scene::Scene& scene, const ExportSettings& set
   // What covers in part lets through light of lamps in volpath alone.
   e.xml.open("integrator", {{"type", cut_out(e, flat) ? "volpath" : "path"}});
   integer(e.xml, "max_depth", settings.max_depth + 1);  // Mitsuba counts segments
+  if (!settings.shows_emitters) boolean(e.xml, "hide_emitters", true);
   e.xml.close();
-  write_camera(e);
+  for (const scene::CameraPose& pose : cameras_of(settings)) write_camera(e, pose);
   std::set<std::string> written;
   for (const FlatMesh& mesh : flat.meshes) {
     const std::string id = bsdf_id(scene, mesh);
@@ -203,8 +203,11 @@ ExportReport export_mitsuba(const scene::Scene& scene, const ExportSettings& set
   e.xml.close();
   write_file(file, e.xml.str());
 
-  return end_export(std::move(e.files), e.textures, e.differences,
-                    fmt::format("mitsuba -m scalar_rgb -o picture.exr {}", file.string()));
+  const std::string command =
+      settings.cube_at
+          ? for_each_face(fmt::format("mitsuba -m scalar_rgb -s $f -o face$f.exr {}", file.string()))
+          : fmt::format("mitsuba -m scalar_rgb -o picture.exr {}", file.string());
+  return end_export(std::move(e.files), e.textures, e.differences, command);
 }
 
 }  // namespace ssphh::scene_io

@@ -255,12 +255,12 @@ void write_environment(Export& e, const scene::Environment& environment) {
                     environment.name);
 }
 
-std::string camera(const ExportSettings& settings) {
-  const scene::Camera& c = settings.camera.camera;
+std::string camera(const ExportSettings& settings, const scene::CameraPose& pose) {
+  const scene::Camera& c = pose.camera;
   const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
   // Looks along +z there.
   const mat4 view = mat4(vec4(1, 0, 0, 0), vec4(0, 1, 0, 0), vec4(0, 0, -1, 0), vec4(0, 0, 0, 1)) *
-                    glm::inverse(settings.camera.world);
+                    glm::inverse(pose.world);
   std::string out = "Transform [";
   for (int column = 0; column < 4; ++column) {
     for (int row = 0; row < 4; ++row) out += fmt::format(" {}", view[column][row]);
@@ -273,6 +273,31 @@ std::string camera(const ExportSettings& settings) {
          fmt::format(" \"float screenwindow\" [ {} {} {} {} ]\n", -aspect * half, aspect * half, -half, half);
 }
 
+// What stands before the world: camera, film and how the picture is made.
+std::string picture_text(const ExportSettings& settings, const scene::CameraPose& pose,
+                         const std::string& picture) {
+  return camera(settings, pose) + "Film \"rgb\"" + integer("xresolution", settings.width) +
+         integer("yresolution", settings.height) + string("filename", picture) + boolean("savefp16", false) +
+         "\nPixelFilter \"box\"" + number("xradius", 0.5f) + number("yradius", 0.5f) +
+         "\nSampler \"independent\"" + integer("pixelsamples", settings.spp) + "\nIntegrator \"path\"" +
+         integer("maxdepth", settings.max_depth) + "\nWorldBegin\n";
+}
+
+// Faces of a cube map share the world, a file of its own.
+void write_views(Export& e, const ExportSettings& settings) {
+  if (!settings.cube_at)
+    return write_file(e.files.front(), picture_text(settings, settings.camera, "picture.exr") + e.text);
+  std::vector<std::filesystem::path> files;
+  for (const scene::CameraPose& pose : cube_cameras(*settings.cube_at)) {
+    const std::string name = fmt::format("face{}", files.size());
+    files.push_back(e.directory / (name + ".pbrt"));
+    write_file(files.back(), picture_text(settings, pose, name + ".exr") + "Include \"world.pbrt\"\n");
+  }
+  e.files.front() = e.directory / "world.pbrt";
+  write_file(e.files.front(), e.text);
+  e.files.insert(e.files.begin(), files.begin(), files.end());
+}
+
 }  // namespace
 }  // namespace pbrt
 
@@ -283,14 +308,6 @@ ExportReport export_pbrt(const scene::Scene& scene, const ExportSettings& settin
   const FlatScene flat = flatten(scene, settings.time);
   const std::filesystem::path file = directory / "scene.pbrt";
   Export e{scene, directory, TextureFiles(scene, directory), {}, {}, {file}, {}};
-  e.text = camera(settings);
-  e.text += "Film \"rgb\"" + integer("xresolution", settings.width) +
-            integer("yresolution", settings.height) + string("filename", "picture.exr") +
-            boolean("savefp16", false) + "\n";
-  e.text += "PixelFilter \"box\"" + number("xradius", 0.5f) + number("yradius", 0.5f) + "\n";
-  e.text += "Sampler \"independent\"" + integer("pixelsamples", settings.spp) + "\n";
-  e.text += "Integrator \"path\"" + integer("maxdepth", settings.max_depth) + "\n";
-  e.text += "WorldBegin\n";
   for (const FlatLight& light : flat.lights) write_light(e, light);
   if (scene.environment) write_environment(e, *scene.environment);
   for (const FlatMesh& mesh : flat.meshes) {
@@ -298,10 +315,13 @@ ExportReport export_pbrt(const scene::Scene& scene, const ExportSettings& settin
     if (e.defined.insert("material " + id).second) define_material(e, id, material_of(scene, mesh));
   }
   for (std::size_t i = 0; i < flat.meshes.size(); ++i) write_mesh(e, i, flat.meshes[i]);
-  write_file(file, e.text);
+  note_shown_emitters(scene, flat, settings, e.differences);
+  write_views(e, settings);
 
-  return end_export(std::move(e.files), e.textures, e.differences,
-                    fmt::format("pbrt --outfile picture.exr {}", file.string()));
+  const std::string command =
+      settings.cube_at ? for_each_face("pbrt --outfile face$f.exr " + (directory / "face$f.pbrt").string())
+                       : fmt::format("pbrt --outfile picture.exr {}", file.string());
+  return end_export(std::move(e.files), e.textures, e.differences, command);
 }
 
 }  // namespace ssphh::scene_io

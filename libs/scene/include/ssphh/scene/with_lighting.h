@@ -12,4 +12,8 @@ namespace ssphh::scene {
 /// Throws Error as check_lighting does.
 Scene with_lighting(Scene scene, const LightingState& state);
 
+/// The scene as it is lit at `time` by one emitter alone: a sphere [m] of this radiance [W sr⁻¹ m⁻²] in every
+/// direction, as VIZ has it. Throws Error for a radius that is not over 0.
+Scene lit_by_sphere(const Scene& scene, float time, const vec3& center, float radius, float radiance);
+
 }  // namespace ssphh::scene

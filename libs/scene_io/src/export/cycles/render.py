@@ -5,8 +5,8 @@
   blender --background --factory-startup --python render.py -- --cube cube.json --output FOLDER ...
 
 The picture is scene-linear radiance, 32-bit OpenEXR. World: y up there, z up in Blender. With --cube it is one of 90
-degrees for each camera of the file, a list of matrices to the world, in two parts: FOLDER/emitted0000.exr, lamps and
-sky seen directly, and FOLDER/reflected0000.exr, the rest.
+degrees for each camera of the file, a list of matrices to the world, in three files: FOLDER/emitted0000.exr, lamps and
+sky seen directly, FOLDER/reflected0000.exr, the rest, and FOLDER/all0000.exr, both.
 """
 import argparse
 import json
@@ -42,7 +42,7 @@ def arguments():
     parser.add_argument("--threads", type=int, default=0, help="0: all")
     parser.add_argument("--projection", choices=("camera", "equirect"), default="camera",
                         help="equirect: all around the camera's place, the centre looking to the world's +x")
-    parser.add_argument("--cube", help="JSON file of cameras' matrices, for pictures of 90 degrees in two parts")
+    parser.add_argument("--cube", help="JSON file of cameras' matrices, for pictures of 90 degrees and their parts")
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else [])
 
 
@@ -182,6 +182,7 @@ def split_pictures(folder, with_reflected):
 
     emitted = mix("ADD", layers.outputs["Emit"], layers.outputs["Env"])
     write("emitted", emitted)
+    write("all", layers.outputs["Image"])
     if with_reflected:
         write("reflected", mix("SUBTRACT", layers.outputs["Image"], emitted))
 
