@@ -52,12 +52,13 @@ double App::turn(const InjectedInput& input) {
   take_work();
   if (farm) take_farm_news();
   if (reference.poll()) screen_.truth_dirty = true, redraw();
+  take_marks();
   watch_file();
   note_view();
   keep_unsaved();
   update_time(std::min(elapsed, 0.25));
 
-  const bool busy = job.running() || reference.status().running;
+  const bool busy = job.running() || reference.status().running || marks.status().running;
   // How far it is
   if (job.running() && now - last_frame_ > 0.2) redraw();
   const bool moving =
@@ -101,6 +102,17 @@ void App::take_work() {
   if (!mended_) return;
   dialog = std::exchange(mended_, std::nullopt);
   dialog->problem = error;
+}
+
+void App::take_marks() {
+  if (!marks.poll()) return;
+  redraw();
+  if (marked()) return picture.take_instead(marks.picture());
+  const std::string error = marks.take_error();
+  if (error.empty()) return;
+  settings.draw.clear();
+  if (failures_end) throw std::runtime_error(error);
+  complain(error);
 }
 
 void App::finish_frame() {
@@ -209,6 +221,7 @@ bool App::current() const {
     return false;
   if (!(screen_.drawn->view == view) || !same_picture(screen_.drawn->settings, settings) || screen_.coarse)
     return false;
+  if (draws_marks() && !marked()) return false;
   return !needs_truth(settings) ||
          (reference.image().passes >= settings.truth_passes && !screen_.truth_dirty);
 }

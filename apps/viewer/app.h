@@ -19,6 +19,7 @@
 #include "model/file_watch.h"
 #include "model/frame_times.h"
 #include "model/inspection.h"
+#include "model/marks.h"
 #include "model/preferences.h"
 #include "model/question.h"
 #include "model/reading.h"
@@ -50,6 +51,8 @@ class App {
 
   /// Takes over what is done in the background; of what failed the user is told.
   void take_work();
+  /// The same of marks; those that failed are switched off.
+  void take_marks();
   /// Takes over what the farm's broker told, if there is one; tells the user when it is lost, and back.
   void take_farm_news();
 
@@ -135,6 +138,8 @@ class App {
   void select(const Selection& selected);
   /// What the ray meets: a body and its material. Nothing there: nothing is selected.
   void select_on_ray(const rays::RayQuery& ray);
+  /// Whether Picture::instead_texture() is what shows the real-time picture.
+  bool shows_instead() const;
   /// The outline of what is selected, to lie over the picture; null: there is none.
   const gl::Texture* outline() const;
   /// As Document::edit(), and shows it.
@@ -215,6 +220,7 @@ class App {
   Selection selection;
   ProbeLight light;
   Reference reference;
+  Marks marks;
   BackgroundJob job;
   std::optional<FarmClient> farm;
   Preferences preferences;
@@ -290,12 +296,20 @@ class App {
   /// Brings histograms and false colours up to date with the picture.
   void update_readings();
   void update_truth();
+  /// Marks are drawn over a picture once it is whole.
+  void update_marks();
+  bool draws_marks() const { return !settings.draw.empty() && !settings.false_color; }
+  /// Whether marks are over the picture of now.
+  bool marked() const;
+  MarkedFor marks_key() const;
   void update_visible();
   std::optional<float> suitable_exposure() const;
   bool show_exposure(float ev);
-  bool smooths() const { return settings.antialias && !needs_truth(settings) && !settings.false_color; }
+  bool smooths() const {
+    return settings.antialias && !needs_truth(settings) && !settings.false_color && !draws_marks();
+  }
   bool wants_linear() const {
-    return needs_truth(settings) || inspecting || settings.histogram || settings.false_color;
+    return needs_truth(settings) || inspecting || settings.histogram || settings.false_color || draws_marks();
   }
 
   LoadScene load_;

@@ -134,7 +134,7 @@ void App::screenshot(const std::string& file, bool with_panels) {
   if (needs_truth(settings) && settings.show != Show::wipe) {
     pixels = picture.truth_pixels();
   } else {
-    pixels = settings.false_color ? picture.false_color_pixels() : picture.pixels();
+    pixels = shows_instead() ? picture.instead_pixels() : picture.pixels();
     const image::Rgba8& truth = picture.truth_pixels();
     const bool same_size = truth.width == pixels.width && truth.height == pixels.height;
     if (settings.show == Show::wipe && picture.has_truth() && same_size) {

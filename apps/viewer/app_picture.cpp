@@ -54,6 +54,47 @@ void App::draw_scene() {
   draw_outline();
   update_truth();
   update_readings();
+  update_marks();
+}
+
+MarkedFor App::marks_key() const {
+  return {screen_.pictures, settings.draw, shown_tone(settings)};
+}
+
+bool App::marked() const {
+  return draws_marks() && marks.done() && screen_.marked == marks_key();
+}
+
+bool App::shows_instead() const {
+  return (settings.false_color || marked()) && picture.instead_texture().width() > 0;
+}
+
+void App::update_marks() {
+  if (!draws_marks()) {
+    if (std::exchange(screen_.marked, std::nullopt)) marks.clear();
+    return;
+  }
+  if (picture.linear().empty() || !geometry_ || applied_.light_stale || screen_.marked == marks_key()) return;
+  screen_.marked = marks_key();
+  MarksParams params;
+  params.scene = std::make_shared<const scene::Scene>(document.edited());
+  params.geometry = geometry_;
+  params.time = document.time;
+  for (const methods::Drawing what : settings.draw) {
+    // What lights the window is shown as it is; other methods are made for the marks.
+    if (what == methods::Drawing::hierarchy && !light.empty())
+      params.own += methods::hierarchy_drawing(light.set());
+    else if (what == methods::Drawing::surfels && light.live())
+      params.own += methods::surfels_drawing(light.live_light()->session().network());
+    else if (what == methods::Drawing::links && light.live())
+      params.own += methods::links_drawing(light.live_light()->session().network());
+    else
+      params.what.push_back(what);
+  }
+  params.camera = pose_of(screen_.drawn->view);
+  params.picture = picture.linear();
+  params.tone = shown_tone(settings);
+  marks.draw(std::move(params));
 }
 
 void App::update_readings() {
@@ -69,7 +110,7 @@ void App::update_readings() {
   histogram = stop_histogram(linear, exposure);
   truth_histogram.reset();
   if (traced) truth_histogram = stop_histogram(*reference.image().color, exposure);
-  if (settings.false_color) picture.take_false_color(false_color(linear, exposure));
+  if (settings.false_color) picture.take_instead(false_color(linear, exposure));
   redraw();
 }
 
@@ -77,6 +118,7 @@ void App::begin_picture() {
   const bool light_path_changed = screen_.scene_dirty || !screen_.drawn || !(screen_.drawn->view == view) ||
                                   screen_.drawn->width != picture.width() ||
                                   screen_.drawn->height != picture.height();
+  if (screen_.scene_dirty) marks.forget();
   if (light_path_changed) {
     picture.forget_truth();
     reference.clear();

@@ -81,9 +81,9 @@ image::Rgba8 Picture::pixels() const {
   return out;
 }
 
-void Picture::take_false_color(image::Rgba8 picture) {
-  false_picture_ = std::move(picture);
-  false_.upload(false_picture_);
+void Picture::take_instead(image::Rgba8 picture) {
+  instead_picture_ = std::move(picture);
+  instead_.upload(instead_picture_);
 }
 
 void Picture::update_truth(const ReferenceImage& truth, const Settings& settings) {

@@ -55,10 +55,10 @@ class Picture {
   /// empty before the first. Row 0 on top.
   image::Rgba8 pixels() const;
 
-  /// What shows the real-time picture's luminance.
-  void take_false_color(image::Rgba8 picture);
-  const PictureTexture& false_color_texture() const { return false_; }
-  const image::Rgba8& false_color_pixels() const { return false_picture_; }
+  /// What is shown in place of the real-time picture: its luminance in false colours, or marks over it.
+  void take_instead(image::Rgba8 picture);
+  const PictureTexture& instead_texture() const { return instead_; }
+  const image::Rgba8& instead_pixels() const { return instead_picture_; }
 
   /// Makes what the settings ask for of the truth so far: tone-mapped, in false colours, or the difference.
   /// Does nothing without a truth of the picture's size.
@@ -83,8 +83,8 @@ class Picture {
   std::unique_ptr<AverageGl> average_;
   gl::Framebuffer framebuffer_;
   image::Image linear_;
-  PictureTexture truth_, false_;
-  image::Rgba8 false_picture_;
+  PictureTexture truth_, instead_;
+  image::Rgba8 instead_picture_;
   image::Rgba8 truth_picture_;
   bool have_truth_ = false;
   std::optional<Difference> difference_;

@@ -31,6 +31,15 @@ struct Drawing {
   double seconds = 0;   ///< so far
 };
 
+/// What marks over a picture hold for.
+struct MarkedFor {
+  int picture = 0;  ///< as Screen::pictures
+  std::vector<methods::Drawing> draw;
+  image::ToneMap tone;
+
+  friend bool operator==(const MarkedFor&, const MarkedFor&) = default;
+};
+
 /// The picture on the screen with what lies over and beside it. Each of them is drawn anew once it is not
 /// that of now.
 struct Screen {
@@ -47,6 +56,7 @@ struct Screen {
   std::optional<std::pair<View, float>> visible_from;  ///< and when in the scene `visible` holds
   /// Picture, passes of truth, EV and false colours that histograms and false colours hold for.
   std::optional<std::tuple<int, int, float, bool>> readings;
+  std::optional<MarkedFor> marked;          ///< what the marks were asked for
   std::optional<Settings> truth_settings;   ///< that the truth was made for
   std::pair<std::string, int> truth_asked;  ///< method and depth of what is traced
 
@@ -57,6 +67,7 @@ struct Screen {
   /// Another scene takes the place of the one that is shown.
   void forget() {
     drawn.reset(), drawing.reset(), outline.reset(), visible_from.reset(), readings.reset();
+    marked.reset();
     scene_dirty = true;
   }
 };

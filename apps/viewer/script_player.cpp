@@ -259,7 +259,8 @@ void ScriptPlayer::run(App& app, const ScriptLine& line) {
 InjectedInput ScriptPlayer::next(App& app) {
   if (done()) return {};
   // While others work there is nothing new to draw until they hand something over.
-  if (!settling_ || !(app.job.running() || app.reference.status().running)) app.redraw();
+  if (!settling_ || !(app.job.running() || app.reference.status().running || app.marks.status().running))
+    app.redraw();
   if (!input_.empty()) {
     InjectedInput input = input_.front();
     input_.pop_front();

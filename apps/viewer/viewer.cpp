@@ -26,7 +26,8 @@ class Session {
   template <class Done>
   bool until(const Done& done) {
     do {
-      if (!app_.job.running() && !app_.reference.status().running) app_.redraw();
+      if (!app_.job.running() && !app_.reference.status().running && !app_.marks.status().running)
+        app_.redraw();
       if (!turn()) return false;
       if (app_.message_is_error) throw Error("view", app_.message);
     } while (!done());

@@ -1,6 +1,7 @@
 #include "settings.h"
 
 #include <algorithm>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -89,6 +90,35 @@ SettingName exposure_setting() {
   return setting;
 }
 
+SettingName draw_setting() {
+  SettingName setting{"draw",
+                      "Picture",
+                      "What methods hold, over the picture: tetrahedra, hierarchy, links, surfels, photons, "
+                      "voxels or transfer, or several with commas between; none. As `ssphh render --draw`",
+                      names_of<methods::Drawing>(),
+                      false,
+                      {},
+                      {}};
+  setting.choices.insert(setting.choices.begin(), "none");
+  setting.set = [words = setting.choices](Settings& s, const std::string& text) {
+    std::vector<methods::Drawing> chosen;
+    std::istringstream in(text == "none" ? "" : text);
+    for (std::string word; std::getline(in, word, ',');) {
+      const auto drawing = parse_enum<methods::Drawing>(word);
+      if (!drawing) throw Error("draw", none_of(word, words));
+      if (std::ranges::count(chosen, *drawing) == 0) chosen.push_back(*drawing);
+    }
+    s.draw = std::move(chosen);
+  };
+  setting.get = [](const Settings& s) {
+    std::string text;
+    for (const methods::Drawing drawing : s.draw)
+      text += (text.empty() ? "" : ",") + std::string(name_of(drawing));
+    return text.empty() ? "none" : text;
+  };
+  return setting;
+}
+
 }  // namespace
 
 const std::vector<SettingName>& setting_names() {
@@ -104,6 +134,7 @@ const std::vector<SettingName>& setting_names() {
           "A picture that stands still is drawn 16 times, moved by parts of a pixel, and shown as the mean: "
           "edges without steps. Not while it is compared with a truth",
           &Settings::antialias),
+      draw_setting(),
       toggle("false-color", "Picture",
              "Each pixel in a colour for its luminance, a band for each stop from middle grey, with a legend",
              &Settings::false_color),

@@ -8,6 +8,7 @@
 
 #include <ssphh/core/enum_names.h>
 #include <ssphh/image/tonemap.h>
+#include <ssphh/methods/drawing.h>
 #include <ssphh/probes/hier.h>
 #include <ssphh/probes/lookup.h>
 #include <ssphh/rays/radiance_source.h>
@@ -73,6 +74,7 @@ struct Settings {
   DebugView debug = DebugView::none;
   bool false_color = false, histogram = false;  ///< of luminance in stops
   bool antialias = true;                        ///< while the picture stands still
+  std::vector<methods::Drawing> draw;           ///< what methods hold, over the picture
   float wipe = 0.5f;                            ///< place of the line, share of the width
   int block = 16;                               ///< pixels, of `pixelated`
   std::string against =

@@ -84,8 +84,8 @@ void draw_picture(const App& app) {
   const float line =
       app.settings.show == Show::wipe && app.settings.debug != DebugView::leak ? app.settings.wipe : 0;
   // OpenGL's first row is the lowest one, a file's the highest.
-  if (app.settings.false_color && app.picture.false_color_texture().width() > 0) {
-    list.AddImage(texture_id(app.picture.false_color_texture().id()), from, to);
+  if (app.shows_instead()) {
+    list.AddImage(texture_id(app.picture.instead_texture().id()), from, to);
   } else {
     list.AddImage(texture_id(app.picture.realtime_texture()), from, to, {0, 1}, {1, 0});
   }

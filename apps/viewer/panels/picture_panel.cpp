@@ -48,6 +48,8 @@ void draw_picture_panel(App& app) {
     note("Looked-up indirect light on places where path tracing finds next to none, as it comes in.");
   setting_widget(app, "histogram (J)", "histogram");
   setting_widget(app, "false colours (K)", "false-color");
+  setting_widget(app, "method's marks", "draw");
+  if (app.marks.status().running) note(fmt::format("drawing {} …", app.marks.status().stage));
   setting_widget(app, "smooth edges", "antialias");
   setting_slider(app, "pixels", "scale", 0.25f, 2, "× %.2f");
   setting_slider(app, "probe light at", "indirect-scale", 1, 8, "1 of %.0f pixels");

@@ -59,7 +59,7 @@ TEST(Settings, StartAtTheirDefaults) {
       {"operator", "mean"}, {"neighbors", "-1"},      {"threshold", "0"},   {"balls", "off"},
       {"ball", "radiance"}, {"ball-size", "0"},       {"lobes", "off"},     {"graph", "off"},
       {"names", "off"},     {"play", "off"},          {"speed", "0.5"},     {"antialias", "on"},
-      {"histogram", "off"}, {"false-color", "off"}};
+      {"histogram", "off"}, {"false-color", "off"},   {"draw", "none"}};
   std::map<std::string, std::string> got;
   for (const SettingName& setting : setting_names()) got[setting.name] = setting.get(Settings{});
   EXPECT_EQ(got, wanted);
@@ -104,6 +104,7 @@ TEST(Settings, GoWhereTheirNameSays) {
       {"debug", "leak", [](Settings& s) { s.debug = DebugView::leak; }},
       {"histogram", "on", [](Settings& s) { s.histogram = true; }},
       {"false-color", "on", [](Settings& s) { s.false_color = true; }},
+      {"draw", "voxels", [](Settings& s) { s.draw = {methods::Drawing::voxels}; }},
       {"antialias", "off", [](Settings& s) { s.antialias = false; }},
       {"scale", "0.5", [](Settings& s) { s.scale = 0.5f; }},
       {"indirect-scale", "2", [](Settings& s) { s.indirect_scale = 2; }},

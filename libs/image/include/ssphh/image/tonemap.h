@@ -25,6 +25,8 @@ struct ToneMap {
   float exposure = 0;  ///< EV: light is multiplied by 2^exposure first
   ToneCurve curve = ToneCurve::clip;
   float gamma = 0;  ///< encoding exponent of to_display: value^(1/gamma); 0 stands for the sRGB curve
+
+  friend bool operator==(const ToneMap&, const ToneMap&) = default;
 };
 
 /// Exposure and curve. Negative values and NaN give 0.
