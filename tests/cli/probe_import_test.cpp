@@ -192,7 +192,7 @@ TEST(ProbeImport, NeedsALayoutForOnePictureAndNoneForSix) {
   std::vector<std::string> with_layout = rest;
   with_layout.insert(with_layout.end(), {"--layout", "strip-h"});
   EXPECT_THAT(problem_here(import_into(dir / "x.sphl", faces, with_layout)),
-              HasSubstr("are 6 pictures, but a layout is of one"));
+              HasSubstr("6 pictures are given, but a layout is of one"));
   image::write_image(faces[4], image::Image(3, 2, 3));
   EXPECT_THAT(problem_here(import_into(dir / "x.sphl", faces, rest)), HasSubstr("must be square"));
   EXPECT_FALSE(std::filesystem::exists(dir / "x.sphl"));

@@ -57,7 +57,7 @@ sh::RadianceSh light_of(const image::CubeMap& cube, int degree) {
 void check_options(const ProbeImportOptions& o) {
   const auto check = [&](const char* what, const std::vector<std::string>& files) {
     if (o.layout && files.size() != 1)
-      throw Error(what, fmt::format("are {} pictures, but a layout is of one", files.size()),
+      throw Error(what, fmt::format("{} pictures are given, but a layout is of one", files.size()),
                   "give one, or leave out --layout for the six faces of `ssphh export --projection cube`");
     if (!o.layout && files.size() != 6)
       throw Error(what, fmt::format("{} given", counted(files.size(), "picture is", "pictures are")),
