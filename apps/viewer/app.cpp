@@ -105,11 +105,13 @@ void App::take_work() {
 }
 
 void App::take_marks() {
-  if (!marks.poll()) return;
-  redraw();
-  if (marked()) return picture.take_instead(marks.picture());
+  if (marks.poll()) {
+    redraw();
+    if (marked()) picture.take_instead(marks.picture());
+  }
   const std::string error = marks.take_error();
   if (error.empty()) return;
+  redraw();
   settings.draw.clear();
   if (failures_end) throw std::runtime_error(error);
   complain(error);

@@ -302,6 +302,9 @@ class App {
   /// Whether marks are over the picture of now.
   bool marked() const;
   MarkedFor marks_key() const;
+  /// What methods may stand on: the geometry knows nodes of the scene as opened, edits may bring others;
+  /// null: they build their own.
+  trace::SharedGeometry geometry_of_methods(const scene::Scene& edited) const;
   void update_visible();
   std::optional<float> suitable_exposure() const;
   bool show_exposure(float ev);

@@ -57,6 +57,10 @@ void App::draw_scene() {
   update_marks();
 }
 
+trace::SharedGeometry App::geometry_of_methods(const scene::Scene& edited) const {
+  return edited.nodes.size() == document.opened->nodes.size() ? geometry_ : nullptr;
+}
+
 MarkedFor App::marks_key() const {
   return {screen_.pictures, settings.draw, shown_tone(settings)};
 }
@@ -78,7 +82,7 @@ void App::update_marks() {
   screen_.marked = marks_key();
   MarksParams params;
   params.scene = std::make_shared<const scene::Scene>(document.edited());
-  params.geometry = geometry_;
+  params.geometry = geometry_of_methods(*params.scene);
   params.time = document.time;
   for (const methods::Drawing what : settings.draw) {
     // What lights the window is shown as it is; other methods are made for the marks.
@@ -235,7 +239,7 @@ void App::update_truth() {
     if (window.seconds() - last_change_ < 0.25 || applied_.light_stale) return;
     ReferenceParams params;
     params.scene = std::make_shared<const scene::Scene>(document.edited());
-    params.geometry = geometry_;
+    params.geometry = settings.against == "path" ? geometry_ : geometry_of_methods(*params.scene);
     params.time = document.time;
     params.camera = pose_of(view);
     params.width = picture.width(), params.height = picture.height();

@@ -74,6 +74,8 @@ TEST_F(MarkedPicture, OfAMethodThatIsMadeForThemFollowsLampsAndView) {
   EXPECT_EQ(shot().rgba, expected(photons()).rgba);
   play("view 0.3 1 2.5 0 1 0");
   EXPECT_EQ(shot().rgba, expected(photons()).rgba) << "from elsewhere";
+  play("sphl 0.4 1.2 0.1");
+  EXPECT_EQ(shot().rgba, expected(photons()).rgba) << "with a node more than was opened";
   play("material white 0.9 0.1 0.1");
   EXPECT_EQ(shot().rgba, expected(photons()).rgba) << "of other surfaces";
 }
