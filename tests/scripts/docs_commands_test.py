@@ -12,7 +12,7 @@ import tempfile
 import unittest
 
 root = pathlib.Path(__file__).resolve().parent.parent.parent
-tool = sys.argv.pop(1) if __name__ == "__main__" else None
+tool = pathlib.Path(sys.argv.pop(1)).resolve()
 
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```", re.S | re.M)
 # In a block: at the line's begin, perhaps behind a prompt, variables and a folder.
