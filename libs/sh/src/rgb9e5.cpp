@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <ssphh/core/math.h>
+
 namespace ssphh::sh {
 namespace {
 
