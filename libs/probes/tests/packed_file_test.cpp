@@ -101,6 +101,7 @@ TEST(PackedFile, CompactSetsKeepLowBandsAndDropWhatOnlyBakesNeed) {
   EXPECT_EQ(compact.degree, 2);
   EXPECT_EQ(edge_count(compact), 0u);
   EXPECT_FALSE(compact.baseline);
+  EXPECT_EQ(compact.hierarchy->sum[2].degree(), 2);
   for (int k = 0; k < 9; ++k) {
     EXPECT_EQ(compact.probes[1].groups[1].reflected[k], set.probes[1].groups[1].reflected[k]);
     EXPECT_EQ(compact.probes[1].self[k], set.probes[1].self[k]);
