@@ -25,6 +25,7 @@
 #include "commands/farm.h"
 #include "commands/methods.h"
 #include "commands/probe.h"
+#include "commands/probe_convert.h"
 #include "commands/scene.h"
 #include "commands/view.h"
 #include "commands/worker.h"

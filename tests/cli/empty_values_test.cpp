@@ -12,6 +12,7 @@
 #include "commands/leak.h"
 #include "commands/measure.h"
 #include "commands/probe.h"
+#include "commands/probe_convert.h"
 #include "commands/relight.h"
 #include "commands/relight_animation.h"
 #include "commands/render.h"

@@ -85,10 +85,10 @@ void add_commands(Command app, Context& context);
 using AddCommand = void(Command parent, Context& context);
 AddCommand add_respond_command, add_scene_commands, add_render_command, add_bake_command, add_place_command,
     add_hier_command, add_probe_commands, add_probe_lint_command, add_probe_export_command,
-    add_probe_blend_command, add_probe_import_command, add_sh_commands, add_cubemap_commands,
-    add_broker_command, add_compare_command, add_export_command, add_truth_command, add_report_command,
-    add_leak_command, add_measure_command, add_methods_command, add_relight_command, add_bench_frame_command,
-    add_turntable_command, add_view_command, add_worker_command, add_farm_commands, add_cook_command,
-    add_sphl_commands, add_lightmap_command, add_web_command, add_doctor_command;
+    add_probe_blend_command, add_probe_convert_command, add_probe_import_command, add_sh_commands,
+    add_cubemap_commands, add_broker_command, add_compare_command, add_export_command, add_truth_command,
+    add_report_command, add_leak_command, add_measure_command, add_methods_command, add_relight_command,
+    add_bench_frame_command, add_turntable_command, add_view_command, add_worker_command, add_farm_commands,
+    add_cook_command, add_sphl_commands, add_lightmap_command, add_web_command, add_doctor_command;
 
 }  // namespace ssphh::app

@@ -1,7 +1,6 @@
 #include "commands/probe.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -100,7 +99,7 @@ std::string probe_text(const ProbeInfo& info, std::size_t i) {
 }  // namespace
 
 ProbeInfo run_probe_info(const ProbeInfoOptions& options, const Control&) {
-  ProbeInfo info{probes::read_probe_file(options.input), {}};
+  ProbeInfo info{probes::read_probe_file(options.input), probes::packing_of_file(options.input), {}};
   for (const probes::Probe& probe : info.set.probes)
     info.lowest_irradiance.push_back(lowest_irradiance(probe.self));
   return info;
@@ -114,6 +113,7 @@ json::Value to_json(const ProbeInfo& info, const ProbeInfoOptions& options) {
   for (std::size_t i = 0; i < set.probes.size(); ++i) probes.push_back(probe_json(info, i));
   json::Value object = {{"file", options.input},
                         {"degree", set.degree},
+                        {"pack", name_of(info.packing)},
                         {"generator", generator_json(set.generator)},
                         {"light_groups", std::move(groups)},
                         {"edges", probes::edge_count(set)},
@@ -131,10 +131,11 @@ json::Value to_json(const ProbeInfo& info, const ProbeInfoOptions& options) {
 std::string to_text(const ProbeInfo& info, const ProbeInfoOptions& options) {
   const probes::ProbeSet& set = info.set;
   const probes::GeneratorInfo& g = set.generator;
-  std::string text =
-      fmt::format("{}: {} of degree {}, {}\nscene {} at {} s; light by {}, edges by {}\n", options.input,
-                  counted(set.probes.size(), "probe"), set.degree, counted(probes::edge_count(set), "edge"),
-                  g.scene, g.time, name_of(g.op), name_of(g.viz));
+  std::string text = fmt::format(
+      "{}: {} of degree {}, {}{}\nscene {} at {} s; light by {}, edges by {}\n", options.input,
+      counted(set.probes.size(), "probe"), set.degree,
+      info.packing == sh::Packing::none ? "" : fmt::format("packed as {}, ", name_of(info.packing)),
+      counted(probes::edge_count(set), "edge"), g.scene, g.time, name_of(g.op), name_of(g.viz));
   const bool gen = g.op == probes::LightOperator::path, viz = g.viz == probes::VizMethod::path;
   if (gen)
     text += fmt::format("GEN {}: paths of depth {}, {} x {} samples\n", name_of(g.gen), g.max_depth, g.passes,
@@ -198,21 +199,6 @@ std::string to_text(const ProbePreviewResult& result, const ProbePreviewOptions&
   return text;
 }
 
-ProbeConvertResult run_probe_convert(const ProbeConvertOptions& options, const Control&) {
-  const probes::ProbeSet set = probes::read_probe_file(options.input);
-  probes::write_probe_file(set, options.output);
-  return {set.probes.size(), std::filesystem::file_size(options.output)};
-}
-
-json::Value to_json(const ProbeConvertResult& result, const ProbeConvertOptions& options) {
-  return {{"output", options.output}, {"probes", result.probes}, {"bytes", result.bytes}};
-}
-
-std::string to_text(const ProbeConvertResult& result, const ProbeConvertOptions& options) {
-  return fmt::format("{}: {}, {}", options.output, counted(result.probes, "probe"),
-                     counted(result.bytes, "byte"));
-}
-
 void add_probe_commands(Command app, Context& context) {
   Command group = add_group(app, "probe", "Look at probe files, check and convert them");
 
@@ -240,10 +226,7 @@ void add_probe_commands(Command app, Context& context) {
       "H of the\n"
       "edge, S of the neighbour, their product H x S, and what S and the products so far sum up to.");
 
-  auto [convert, files] = add_command(group, context, "convert",
-                                      "Convert between .sphl (binary) and .sphl.json", run_probe_convert);
-  add_probe_file(convert, "FILE", files.input, "Probe file to read").required();
-  add_probe_file(convert, "-o,--output", files.output, "Probe file to write").required();
+  add_probe_convert_command(group, context);
   add_probe_blend_command(group, context);
   add_probe_import_command(group, context);
   add_probe_lint_command(group, context);

@@ -10,6 +10,7 @@
 #include <ssphh/core/json.h>
 #include <ssphh/probes/blend.h>
 #include <ssphh/probes/probe_set.h>
+#include <ssphh/sh/packing.h>
 #include <ssphh/study/lint.h>
 
 #include "options/scene_options.h"
@@ -21,7 +22,8 @@ struct ProbeInfoOptions {
   std::string input;  ///< probe file to read
 };
 struct ProbeInfo {
-  probes::ProbeSet set;                  ///< what the file holds
+  probes::ProbeSet set;                     ///< what the file holds
+  sh::Packing packing = sh::Packing::none;  ///< of its light
   std::vector<float> lowest_irradiance;  ///< of each probe: least E(n) of its own light over n and channels
 };
 ProbeInfo run_probe_info(const ProbeInfoOptions& options, const Control& control = {});
@@ -44,18 +46,6 @@ struct ProbePreviewResult {
 ProbePreviewResult run_probe_preview(const ProbePreviewOptions& options, const Control& control = {});
 json::Value to_json(const ProbePreviewResult& result, const ProbePreviewOptions& options);
 std::string to_text(const ProbePreviewResult& result, const ProbePreviewOptions& options);
-
-struct ProbeConvertOptions {
-  std::string input;   ///< probe file to read
-  std::string output;  ///< probe file to write: .sphl or .sphl.json
-};
-struct ProbeConvertResult {
-  std::size_t probes = 0;
-  std::uint64_t bytes = 0;  ///< of the file that was written
-};
-ProbeConvertResult run_probe_convert(const ProbeConvertOptions& options, const Control& control = {});
-json::Value to_json(const ProbeConvertResult& result, const ProbeConvertOptions& options);
-std::string to_text(const ProbeConvertResult& result, const ProbeConvertOptions& options);
 
 struct ProbeBlendOptions {
   std::string from, to;  ///< probe files to read

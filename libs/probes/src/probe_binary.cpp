@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <string_view>
+
+#include <fmt/format.h>
 
 #include <ssphh/core/hash.h>
 #include <ssphh/probes/byte_parts.h>
@@ -16,6 +19,9 @@ namespace {
 
 /// As PNG's: tells text-mode transfers and truncation at Ctrl-Z.
 constexpr std::array<char, 8> magic = {'S', 'P', 'H', 'L', '\r', '\n', '\x1a', '\n'};
+
+/// Magic, version, size and checksum of the payload; a packed file's payload begins with the packing.
+constexpr std::size_t header_bytes = 36;
 
 void write_generator(ByteWriter& out, const GeneratorInfo& g) {
   out.value(static_cast<std::uint8_t>(g.op));
@@ -197,9 +203,10 @@ Baseline read_baseline(ByteReader& in, std::size_t probe_count, std::size_t grou
   return baseline;
 }
 
-ProbeSet read_payload(ByteReader& in) {
+ProbeSet read_payload(ByteReader& in, sh::Packing packing) {
   ProbeSet set;
   set.degree = read_int(in, "degree", 0, sh::max_degree);
+  if (!sh::packs(packing, set.degree)) in.fail("packing", "has no such degree");
   const auto coefficients = static_cast<std::size_t>(sh::coefficient_count(set.degree));
   set.generator = read_generator(in);
   set.light_groups.resize(
@@ -209,8 +216,8 @@ ProbeSet read_payload(ByteReader& in) {
     group.scale = in.vector3("light group scale");
     group.mode = static_cast<scene::LightMode>(in.value_in<std::uint8_t>("light group mode", 0, 3));
   }
-  const std::size_t bytes_each =
-      set.light_groups.size() * (coefficients * sizeof(vec3) + 2) + sizeof(vec3) + 3 * sizeof(float);
+  const std::size_t bytes_each = set.light_groups.size() * (sh::packed_bytes(packing, set.degree) + 2) +
+                                 sizeof(vec3) + 3 * sizeof(float);
   const std::size_t probe_count = in.count("probe count", limits::probes, bytes_each);
   set.probes.resize(probe_count);
   for (std::size_t i = 0; i < probe_count; ++i) {
@@ -218,7 +225,7 @@ ProbeSet read_payload(ByteReader& in) {
     probe.name = in.text("probe name", limits::text);
     probe.position = in.vector3("position");
     probe.radius = in.value<float>("radius");
-    probe.groups = read_groups(in, set.degree, set.light_groups.size());
+    probe.groups = read_groups(in, set.degree, set.light_groups.size(), packing);
     probe.edges = read_edges(ByteReaderParts(in), set.degree, i, probe_count);
   }
   if (in.value_in<std::uint8_t>("hierarchy flag", 0, 1)) {
@@ -228,7 +235,7 @@ ProbeSet read_payload(ByteReader& in) {
     hierarchy.threshold = in.value_in<float>("threshold", 0.0f, limits::coefficient);
     hierarchy.neighbor.resize(probe_count);
     for (sh::RadianceSh& neighbor : hierarchy.neighbor)
-      neighbor.values = ByteReaderParts(in).vectors("neighbour part", coefficients, Missing::never);
+      neighbor.values = ByteReaderParts(in, packing).vectors("neighbour part", coefficients, Missing::never);
   }
   if (in.value_in<std::uint8_t>("fitted flag", 0, 1)) set.fitted = read_fitted(in, probe_count);
   if (in.value_in<std::uint8_t>("surface flag", 0, 1))
@@ -245,9 +252,16 @@ Hash128 checksum(std::span<const std::byte> payload) {
 
 }  // namespace
 
-std::vector<std::byte> probes_to_binary(const ProbeSet& set) {
+std::vector<std::byte> probes_to_binary(const ProbeSet& set, sh::Packing packing) {
   validate(set, "probe set");
+  const bool packed = packing != sh::Packing::none;
+  if (packed) {
+    require(edge_count(set) == 0 && !set.baseline, "packed probe set", "it holds no edges and no baseline");
+    if (!sh::packs(packing, set.degree))
+      refuse("packed probe set", fmt::format("{} has no degree {}", name_of(packing), set.degree));
+  }
   ByteWriter payload;
+  if (packed) payload.value(static_cast<std::uint8_t>(packing));
   payload.value(static_cast<std::uint32_t>(set.degree));
   write_generator(payload, set.generator);
   payload.value(static_cast<std::uint32_t>(set.light_groups.size()));
@@ -261,7 +275,11 @@ std::vector<std::byte> probes_to_binary(const ProbeSet& set) {
     payload.text(probe.name);
     payload.vector3(probe.position);
     payload.value(probe.radius);
-    write_groups(payload, probe.groups);
+    try {
+      write_groups(payload, probe.groups, packing);
+    } catch (const Error& e) {
+      throw Error(fmt::format("probe \"{}\"", probe.name), e.problem(), e.hint());
+    }
     write_edges(payload, probe.edges);
   }
   payload.value(static_cast<std::uint8_t>(set.hierarchy.has_value()));
@@ -270,7 +288,7 @@ std::vector<std::byte> probes_to_binary(const ProbeSet& set) {
     payload.value(static_cast<std::int32_t>(set.hierarchy->neighbors));
     payload.value(set.hierarchy->threshold);
     for (const sh::RadianceSh& neighbor : set.hierarchy->neighbor)
-      ByteWriterParts(payload).vectors("neighbour part", neighbor.values, Missing::never);
+      ByteWriterParts(payload, packing).vectors("neighbour part", neighbor.values, Missing::never);
   }
   payload.value(static_cast<std::uint8_t>(set.fitted.has_value()));
   if (set.fitted) write_fitted(payload, *set.fitted);
@@ -281,7 +299,7 @@ std::vector<std::byte> probes_to_binary(const ProbeSet& set) {
 
   ByteWriter file;
   file.array(std::span<const char>(magic));
-  file.value(static_cast<std::uint32_t>(probe_file_version));
+  file.value(static_cast<std::uint32_t>(packed ? packed_probe_file_version : probe_file_version));
   file.value(static_cast<std::uint64_t>(payload.bytes().size()));
   const Hash128 sum = checksum(payload.bytes());
   file.value(sum.high), file.value(sum.low);
@@ -303,10 +321,11 @@ ProbeSet probes_from_binary(std::span<const std::byte> data, const std::string& 
   }
   for (std::size_t i = 0; i < magic.size(); ++i) header.value<char>("magic");
   const auto version = header.value<std::uint32_t>("version");
-  if (version != probe_file_version) {
+  const bool packed = version == packed_probe_file_version;
+  if (version != probe_file_version && !packed) {
     throw Error(where,
-                "has version " + std::to_string(version) + "; this program reads version " +
-                    std::to_string(probe_file_version),
+                fmt::format("has version {}; this program reads versions {} and {}", version,
+                            probe_file_version, packed_probe_file_version),
                 "bake it anew: ssphh bake SCENE -o FILE");
   }
   const auto size = header.value<std::uint64_t>("payload size");
@@ -323,9 +342,20 @@ ProbeSet probes_from_binary(std::span<const std::byte> data, const std::string& 
   if (checksum(payload) != sum) throw Error(where, "its checksum does not match", "the file is damaged");
 
   ByteReader in(payload, where + " payload");
-  ProbeSet set = read_payload(in);
+  const auto packing = static_cast<sh::Packing>(packed ? in.value_in<std::uint8_t>("packing", 1, 3) : 0);
+  ProbeSet set = read_payload(in, packing);
   finish_reading(set, where);
   return set;
+}
+
+sh::Packing packing_of_file(const std::filesystem::path& path) {
+  if (probe_file_format(path) == ProbeFileFormat::json) return sh::Packing::none;
+  std::array<char, header_bytes + 1> begin{};
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(begin.data(), begin.size())) throw Error(path.string(), "cannot be read");
+  ByteReader in(std::as_bytes(std::span(begin)).subspan(magic.size()), path.string());
+  if (in.value<std::uint32_t>("version") != packed_probe_file_version) return sh::Packing::none;
+  return static_cast<sh::Packing>(begin[header_bytes]);
 }
 
 }  // namespace ssphh::probes

@@ -230,12 +230,12 @@ ProbeSet read_probe_file(const std::filesystem::path& path) {
   return probes_from_binary(read_file(path, limits::binary_bytes), path.string());
 }
 
-void write_probe_file(const ProbeSet& set, const std::filesystem::path& path) {
-  if (probe_file_format(path) == ProbeFileFormat::json) {
-    write_file(path, probes_to_json(set));
-  } else {
-    write_file(path, probes_to_binary(set));
-  }
+void write_probe_file(const ProbeSet& set, const std::filesystem::path& path, sh::Packing packing) {
+  if (probe_file_format(path) == ProbeFileFormat::binary)
+    return write_file(path, probes_to_binary(set, packing));
+  if (packing != sh::Packing::none)
+    throw Error(path.string(), "JSON holds no packed light", "choose a name that ends in .sphl");
+  write_file(path, probes_to_json(set));
 }
 
 }  // namespace ssphh::probes

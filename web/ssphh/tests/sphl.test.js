@@ -105,6 +105,36 @@ test('what a probe sees: the numbers of the CSV export', () => {
   }
 });
 
+test('packed light is what the tool makes of it', () => {
+  for (const packing of ['half', 'rgb9e5', 'zh3']) {
+    const name = `everything-${packing}`;
+    const path = made(`${name}.sphl`, out => run('probe', 'convert', everything(), '-o', out, '--pack', packing));
+    // The tool's own reader, and its text of five digits
+    const plain = made(`${name}.sphl.json`, out => run('probe', 'convert', path, '-o', out));
+    const set = readSphl(bytesOf(path)), expected = readSphl(bytesOf(plain));
+    assert(set.probes.every(p => p.edges.length === 0) && set.hierarchy && !set.hasBaseline);
+    set.probes.forEach((probe, i) => {
+      const other = expected.probes[i];
+      for (const [ours, theirs] of [[probe.neighbor, other.neighbor], ...probe.groups.flatMap((g, k) => [[g.emitted, other.groups[k].emitted], [g.reflected, other.groups[k].reflected]])]) {
+        assert.equal(ours?.length, theirs?.length);
+        const most = Math.max(...(theirs ?? []).map(Math.abs));
+        ours?.forEach((v, k) => assert(Math.abs(v - theirs[k]) <= 1e-4 * Math.abs(theirs[k]) + 1e-6 * most, `${packing}, probe ${i}, ${k}: ${v} ${theirs[k]}`));
+      }
+    });
+    const whole = new Uint8Array(bytesOf(path)), view = new DataView(whole.buffer), random = randomNumbers(9), seen = {};
+    for (let i = 0; i < 1000; ++i) {
+      const at = 36 + (i < 200 ? i : Math.floor(random() * (whole.length - 36))), was = whole[at];
+      whole[at] = i % 2 ? 0xff : was ^ (1 << Math.floor(8 * random()));
+      xxh3(whole.subarray(36)).forEach((half, k) => view.setBigUint64(20 + 8 * k, half, true));
+      const code = codeOf(whole);
+      assert(code === 'ok' || code === 'invalid', `byte ${at}: ${code}`);
+      seen[code] = (seen[code] ?? 0) + 1;
+      whole[at] = was;
+    }
+    assert(seen.ok > 30 && seen.invalid > 30, JSON.stringify(seen));
+  }
+});
+
 test('scales, and parts that add up', () => {
   const set = readSphl(bytesOf(probeFile('random?seed=7', 'points'))), scales = set.lightGroups.map(() => [0, 2, 1]);
   const [all, reflected, emitted] = ['all', 'reflected', 'emitted'].map(part => probeRadiance(set, 2, part));

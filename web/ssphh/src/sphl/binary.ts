@@ -1,7 +1,8 @@
 import { SsphhError } from '../errors.js';
 import { coefficientCount, maxDegree } from '../sh.js';
+import { packedBytes, packings, packs, type Packing } from './packing.js';
 import { Reader } from './reader.js';
-import { expectVersion, limits, names, type FittedPoint, type Generator, type Probe, type ProbeLightGroup, type ProbeSet, type SurfaceRecords } from './types.js';
+import { expectVersion, limits, packedVersion, names, type Coefficients, type FittedPoint, type Generator, type Probe, type ProbeLightGroup, type ProbeSet, type SurfaceRecords } from './types.js';
 import { xxh3 } from './xxh3.js';
 
 export const magic = [0x53, 0x50, 0x48, 0x4c, 0x0d, 0x0a, 0x1a, 0x0a];
@@ -26,12 +27,14 @@ function readLightGroups(r: Reader): ProbeLightGroup[] {
   }));
 }
 
-function readProbe(r: Reader, index: number, probeCount: number, groupCount: number, floats: number): Probe {
+function readProbe(r: Reader, index: number, probeCount: number, groupCount: number, floats: number, light: (what: string) => Coefficients): Probe {
   const vector = (what: string) => (r.u8(what, 1, 1), r.floats(what, floats, limits.coefficient));
   const optional = (what: string, count: number) => (r.u8(what, 1) ? r.floats(what, count, limits.coefficient) : null);
   const name = r.text('probe name', limits.text), position = r.three('position', limits.coordinate);
   const radius = r.f32('radius', limits.smallestRadius, limits.coordinate);
-  const groups = Array.from({ length: groupCount }, () => ({ emitted: optional('emitted', floats), reflected: vector('reflected') }));
+  const groups = Array.from({ length: groupCount }, () => ({
+    emitted: r.u8('emitted', 1) ? light('emitted') : null, reflected: (r.u8('reflected', 1, 1), light('reflected')),
+  }));
   let last = -1;
   const edges = Array.from({ length: r.count('edge count', probeCount - 1, 4 * (2 + floats)) }, () => {
     const from = r.u32('from', probeCount - 1);
@@ -93,15 +96,18 @@ function skipBaseline(r: Reader, probeCount: number, groupCount: number): void {
   if (r.u8('trials flag', 1)) r.skip('trials', probeCount * 2 * groupCount * (1 + 4 * 27));
 }
 
-function readPayload(r: Reader): ProbeSet {
-  const degree = r.u32('degree', maxDegree), floats = 3 * coefficientCount(degree), generator = readGenerator(r), lightGroups = readLightGroups(r);
-  const groupCount = lightGroups.length, probeCount = r.count('probe count', limits.probes, groupCount * (4 * floats + 2) + 24);
-  const probes = Array.from({ length: probeCount }, (_, i) => readProbe(r, i, probeCount, groupCount, floats));
+function readPayload(r: Reader, packing: Packing): ProbeSet {
+  const degree = r.u32('degree', maxDegree), floats = 3 * coefficientCount(degree);
+  if (!packs(packing, degree)) r.fail('packing', `${packing} has no degree ${degree}`);
+  const light = (what: string) => r.light(what, packing, degree, limits.coefficient);
+  const generator = readGenerator(r), lightGroups = readLightGroups(r), groupCount = lightGroups.length;
+  const probeCount = r.count('probe count', limits.probes, groupCount * (packedBytes(packing, degree) + 2) + 24);
+  const probes = Array.from({ length: probeCount }, (_, i) => readProbe(r, i, probeCount, groupCount, floats, light));
   let hierarchy: ProbeSet['hierarchy'] = null;
   if (r.u8('hierarchy flag', 1)) {
     const operator = r.name('operator', names.hierOperator), neighbors = r.i32('neighbors', -1, limits.probes);
     hierarchy = { operator, neighbors, threshold: r.f32('threshold', 0, limits.coefficient) };
-    for (const probe of probes) probe.neighbor = (r.u8('neighbour part', 1, 1), r.floats('neighbour part', floats, limits.coefficient));
+    for (const probe of probes) probe.neighbor = (r.u8('neighbour part', 1, 1), light('neighbour part'));
   }
   const fitted = r.u8('fitted flag', 1) ? readFitted(r, probeCount) : null;
   const surface = r.u8('surface flag', 1) ? readSurface(r, groupCount) : null;
@@ -116,12 +122,13 @@ export function readBinary(bytes: Uint8Array): ProbeSet {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   if (bytes.length < 12) throw new SsphhError('cut-off', 'the probe file is cut off');
   const version = view.getUint32(8, true);
-  expectVersion(version);
+  if (version !== packedVersion) expectVersion(version);
   if (bytes.length < headerSize || Number(view.getBigUint64(12, true)) !== bytes.length - headerSize)
     throw new SsphhError('cut-off', 'the probe file has another size than it says: it was cut off or added to');
   const payload = bytes.subarray(headerSize);
   const [high, low] = payload.length > 16 ? xxh3(payload) : [0n, 0n];
   if (view.getBigUint64(20, true) !== high || view.getBigUint64(28, true) !== low)
     throw new SsphhError('damaged', 'the probe file is damaged: its checksum is wrong');
-  return readPayload(new Reader(payload));
+  const r = new Reader(payload);
+  return readPayload(r, version === packedVersion ? packings[r.u8('packing', packings.length - 1, 1)]! : 'none');
 }

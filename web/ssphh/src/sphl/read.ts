@@ -7,7 +7,7 @@ import { readJson } from './json.js';
 import type { Coefficients, ProbeSet } from './types.js';
 
 /**
- * Reads a probe file (`ssphh bake -o FILE.sphl` or `FILE.sphl.json`, version 7), binary or JSON. Errors: `not-sphl`, `bad-version`,
+ * Reads a probe file (`ssphh bake -o FILE.sphl` or `FILE.sphl.json`, version 7, or 8 with packed light), binary or JSON. Errors: `not-sphl`, `bad-version`,
  * `cut-off`, `damaged` (binary: its XXH3 is wrong), `invalid` (with the place and what must stand there).
  */
 export function readSphl(bytes: Bytes): ProbeSet {

@@ -1,5 +1,8 @@
 import { utf8 } from '../bytes.js';
 import { SsphhError } from '../errors.js';
+import { coefficientCount } from '../sh.js';
+import { packedBytes, unpack, type Packing } from './packing.js';
+import type { Coefficients } from './types.js';
 
 /** Reads little-endian numbers one after another, each within limits; sizes are looked at before memory is taken. */
 export class Reader {
@@ -54,6 +57,12 @@ export class Reader {
     for (let i = 0; i < count; ++i) out[i] = this.#view.getFloat32(begin + 4 * i, true);
     if (!out.every(v => Math.abs(v) <= limit)) this.fail(what, 'holds a number out of range');
     return out;
+  }
+  /** A function on the sphere as `packing` has it. */
+  light(what: string, packing: Packing, degree: number, limit: number): Coefficients {
+    if (packing === 'none') return this.floats(what, 3 * coefficientCount(degree), limit);
+    const size = packedBytes(packing, degree), begin = this.#take(size, what), out = unpack(this.bytes.subarray(begin, begin + size), packing, degree);
+    return out.every(v => Math.abs(v) <= limit) ? out : this.fail(what, 'holds a number out of range');
   }
   text(what: string, limit: number): string {
     const size = this.u32(what, limit), begin = this.#take(size, what);

@@ -97,9 +97,11 @@ export const names = {
 } as const;
 
 const fileVersion = 7;
+/** Of binary files with packed light. */
+export const packedVersion = 8;
 
 /** Error `bad-version` for any other. */
 export function expectVersion(version: unknown): void {
   if (version === fileVersion) return;
-  throw new SsphhError('bad-version', `the probe file is of version ${version}, not ${fileVersion}: bake it anew, or take a package that reads it`);
+  throw new SsphhError('bad-version', `the probe file is of version ${version}, not ${fileVersion} or ${packedVersion}: bake it anew, or take a package that reads it`);
 }

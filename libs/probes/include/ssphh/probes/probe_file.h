@@ -8,10 +8,13 @@
 #include <string_view>
 
 #include <ssphh/probes/probe_set.h>
+#include <ssphh/sh/packing.h>
 
 namespace ssphh::probes {
 
 inline constexpr int probe_file_version = 7;
+/// Of binary files with packed light (docs/compact-probes.md); else as version 7.
+inline constexpr int packed_probe_file_version = 8;
 
 enum class ProbeFileFormat { json, binary };
 
@@ -23,13 +26,18 @@ ProbeFileFormat probe_file_format(const std::filesystem::path& path);
 /// plain one of its size.
 ProbeSet read_probe_file(const std::filesystem::path& path);
 
-/// Validates and writes atomically; the format is that of the name.
-void write_probe_file(const ProbeSet& set, const std::filesystem::path& path);
+/// Validates and writes atomically; the format is that of the name. With a packing: throws Error for JSON,
+/// for sets that are not compacted(), and as sh::pack() does.
+void write_probe_file(const ProbeSet& set, const std::filesystem::path& path,
+                      sh::Packing packing = sh::Packing::none);
+
+/// How the light of a probe file is packed. Throws Error where it cannot be read; looks at its begin alone.
+sh::Packing packing_of_file(const std::filesystem::path& path);
 
 /// The same on memory. `where` names the source in errors.
 std::string probes_to_json(const ProbeSet& set);
 ProbeSet probes_from_json(std::string_view text, const std::string& where);
-std::vector<std::byte> probes_to_binary(const ProbeSet& set);
+std::vector<std::byte> probes_to_binary(const ProbeSet& set, sh::Packing packing = sh::Packing::none);
 ProbeSet probes_from_binary(std::span<const std::byte> data, const std::string& where);
 
 /// Throws Error when a count, an index or a number is not as ProbeSet describes it: what no writer may write.

@@ -17,6 +17,13 @@ constexpr int coefficient_count(int degree) {
 }
 inline constexpr int max_coefficient_count = coefficient_count(max_degree);
 
+/// The degree whose functions have at most so many coefficients; −1: none.
+constexpr int degree_of(std::size_t coefficients) {
+  int degree = -1;
+  while (static_cast<std::size_t>(coefficient_count(degree + 1)) <= coefficients) ++degree;
+  return degree;
+}
+
 /// Throws Error unless the degree is 0..max_degree.
 inline void require_degree(int degree, const char* where) {
   require(degree >= 0 && degree <= max_degree, where, "the degree must be 0..10");
@@ -43,11 +50,7 @@ struct RgbSh {
 
   bool empty() const { return values.empty(); }
   /// −1 when empty.
-  int degree() const {
-    int d = -1;
-    while (coefficient_count(d + 1) <= static_cast<int>(values.size())) ++d;
-    return d;
-  }
+  int degree() const { return degree_of(values.size()); }
   vec3& operator[](int k) { return values[k]; }
   const vec3& operator[](int k) const { return values[k]; }
 
