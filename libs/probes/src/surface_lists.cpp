@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -27,6 +28,9 @@ constexpr float cell_share = 2.0f / 3;
 /// house.
 constexpr float most_cells_apart = 8;
 
+/// Nor do points so much coarser than the finest around tell that a place under a house is not within it.
+constexpr float most_coarser = 8;
+
 /// Samples of a part of a cell on surfaces that face one axis: one of each sheet of a few, a picture's front
 /// and back and the wall behind it.
 struct Layers {
@@ -50,6 +54,7 @@ struct Work {
   SurfaceSamples samples;
   std::vector<Layers> taken;  ///< in each part of a cell, by axis
   std::vector<Candidate> candidates;
+  float finest = 0;                  ///< spacing of those
   std::vector<std::uint32_t> panes;  ///< triangles of glass in the cell
   std::vector<uvec4> list;
 };
@@ -229,6 +234,9 @@ class Preparation {
       const float spacing = spacings_[p];
       work.candidates.push_back({p, glm::dot(d, d) / (spacing * spacing), {}, {}, {}});
     });
+    work.finest = std::numeric_limits<float>::infinity();
+    for (const Work::Candidate& candidate : work.candidates)
+      work.finest = std::min(work.finest, spacings_[candidate.point]);
     std::ranges::sort(work.candidates, [](const Work::Candidate& a, const Work::Candidate& b) {
       return a.order < b.order || (a.order == b.order && a.point < b.point);
     });
@@ -291,11 +299,13 @@ class Preparation {
     }
     if (seen == 0) return;
     const rays::SurfacePoint& point = out_.points[candidate.point];
-    work.samples.weigh(point, spacings_[candidate.point], cover_[candidate.point]);
+    const float spacing = spacings_[candidate.point];
+    work.samples.weigh(point, spacing, cover_[candidate.point]);
+    const bool tells = spacing <= most_coarser * work.finest;
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t sample = candidate.asked[i];
       if (candidate.seen.empty() || candidate.seen[i] == Seen::yes)
-        work.samples.count_in(sample, work.samples.side(sample, point.normal));
+        work.samples.count_in(sample, work.samples.side(sample, point.normal), tells);
     }
   }
 

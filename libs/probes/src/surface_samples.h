@@ -36,14 +36,14 @@ class SurfaceSamples {
   Verdict verdict(std::size_t i) const { return static_cast<Verdict>(verdicts_[i]); }
   /// Finds what a point counts at the places.
   void weigh(const rays::SurfacePoint& point, float spacing, int cover);
-  /// Counts in the point that was weighed last: it is seen from there.
-  void count_in(std::size_t i, std::size_t side) {
-    alive_[side][i] = 1;
+  /// Counts in the point that was weighed last: it is seen from there, and tells whether that is `alive`.
+  void count_in(std::size_t i, std::size_t side, bool alive) {
+    alive_[side][i] |= alive;
     numbers_[6 + side][i] += weights_[i];
   }
 
-  /// Whether any point that faces this side's way is seen from there. What sees none lies within a body, and
-  /// has no say.
+  /// Whether any point that tells and faces this side's way is seen from there. What sees none lies within a
+  /// body, and has no say.
   bool alive(std::size_t i, std::size_t side) const { return alive_[side][i] != 0; }
 
   /// What `find` tells of a side, asked once.

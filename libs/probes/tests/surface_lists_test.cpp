@@ -60,9 +60,10 @@ FittedPoints around_body() {
   return fitted;
 }
 
-/// Places of the points that may light a surface that faces n at x and are well within a lookup's reach,
-/// about 1 m.
-std::vector<vec3> lighting(const SurfaceLists& surfaces, const vec3& x, const vec3& n = {0, 1, 0}) {
+/// Places of the points no farther than `reach` that may light a surface that faces n at x; those half a
+/// metre apart do so to about 1 m.
+std::vector<vec3> lighting(const SurfaceLists& surfaces, const vec3& x, const vec3& n = {0, 1, 0},
+                           float reach = 0.8f) {
   const SurfaceGrid& grid = surfaces.grids[0];
   const vec3 u = (x - grid.origin) / grid.cell_size;
   const ivec3 cell(glm::floor(u));
@@ -73,7 +74,7 @@ std::vector<vec3> lighting(const SurfaceLists& surfaces, const vec3& x, const ve
     const uvec4 entry = surfaces.lists[range.x + i];
     const rays::SurfacePoint& point = surfaces.points[entry.x & 0x7ffffu];
     const int part = surface_part(u - vec3(cell), static_cast<int>(entry.x >> 22));
-    if (glm::dot(point.normal, n) > 0 && glm::distance(point.position, x) < 0.8f &&
+    if (glm::dot(point.normal, n) > 0 && glm::distance(point.position, x) < reach &&
         ((part < 32 ? entry.y : entry.z) >> (part & 31) & 1u))
       places.push_back(point.position);
   }
@@ -124,8 +125,8 @@ TEST(SurfaceLists, AFloorHasPointsAllTheWayToAPane) {
 }
 
 TEST(SurfaceLists, FarPointsOfAPlainAreNotSeenFromUnderAHouse) {
-  // Hundreds of metres apart: shares of that are above the roof. What lies under the house has no say then,
-  // wherever its wall cuts a part of a cell.
+  // Hundreds of metres apart: shares of that are above the roof, and a ray as long as that may begin beyond a
+  // wall. What lies under the house has no say then, wherever its wall cuts a part of a cell.
   FittedPoints fitted = around_body();
   fitted.points.pop_back(), fitted.weights.pop_back();
   std::erase_if(fitted.points, [](const rays::SurfacePoint& p) {
@@ -141,17 +142,21 @@ TEST(SurfaceLists, FarPointsOfAPlainAreNotSeenFromUnderAHouse) {
     weights.add(0, 1);
   }
   scene::Scene scene = body_on_a_floor();
-  for (int shift = 0; shift < 10; ++shift) {
-    const vec3 below(-0.6f, -0.1f, -0.6f), roof(0.6f + 0.004f * static_cast<float>(shift), 1.2f, 0.6f);
+  for (int shift = 0; shift < 20; ++shift) {
+    const vec3 below(-0.6f, -0.1f, -0.6f), roof(0.6f + 0.002f * static_cast<float>(shift), 1.2f, 0.6f);
     scene.meshes[1] = scene::make_box(below, roof);
     scene.meshes[1].material = 0;
     const auto inside = [&](const vec3& x) { return x == glm::clamp(x, below, roof); };
     const auto sees = [&](const vec3& a, const vec3& b) {
-      return inside(a) == inside(b) && (inside(a) || misses(below, roof, a, b));
+      constexpr float rounding = 1e-4f;
+      const vec3 begin = glm::mix(a, b, rounding);
+      return inside(begin) == inside(b) && (inside(begin) || misses(below, roof, begin, b));
     };
     const SurfaceLists surfaces = prepare_fitted(scene, 0, fitted, sees).surfaces;
     for (float x = roof.x + 0.002f; x < 0.8f; x += 0.004f)
       EXPECT_GE(lighting(surfaces, {x, 0, 0.1f}).size(), 2u) << x << " beside a wall at " << roof.x;
+    for (const vec3& p : lighting(surfaces, {0, 0, -0.7f}, {0, 1, 0}, 2000))
+      EXPECT_FALSE(p.x == 0 && p.z >= 300) << "behind the house, seen over its roof";
   }
 }
 

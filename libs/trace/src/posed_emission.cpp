@@ -34,4 +34,26 @@ std::optional<rays::Photon> PosedLight::emit(int group, const rays::PhotonNumber
   return photon;
 }
 
+std::vector<vec3> PosedLight::emitter_places(int group, int count) const {
+  const auto near_flux = [&](const GroupEmitter& light) {
+    return light.emitter.distant() ? 0 : lights_.flux(light.index, geometry_.bounds().radius());
+  };
+  float all = 0;
+  for (const GroupEmitter& light : emitters_of(group)) all += near_flux(light);
+  std::vector<vec3> places;
+  for (const GroupEmitter& light : emitters_of(group)) {
+    const float flux = near_flux(light);
+    if (!(flux > 0)) continue;
+    const int here =
+        light.emitter.kind == shading::EmitterKind::point ? 1 : static_cast<int>(count * (flux / all)) + 1;
+    for (int i = 0; i < here; ++i) {
+      SampleSequence random(0, static_cast<std::uint32_t>(i));
+      const vec2 u_place = random.next2(), u_direction = random.next2();
+      const auto emitted = lights_.emit(light.index, u_place, u_direction, vec3(0), 0);
+      if (emitted) places.push_back(emitted->photon.origin);
+    }
+  }
+  return places;
+}
+
 }  // namespace ssphh::trace

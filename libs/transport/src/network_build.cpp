@@ -83,13 +83,27 @@ class NetworkBuilder {
   std::size_t rays_per_surfel() const { return static_cast<std::size_t>(d_.params.link_rays); }
   std::size_t m() const { return d_.sample_count(); }
 
-  /// Larger surfels far from probes, where one size for all would make too many.
+  /// Larger surfels far from probes and lamps, where one size for all would make too many.
   void choose_sizes() {
     const std::size_t most = static_cast<std::size_t>(d_.params.most_surfels);
-    SurfelSizes sizes = sizes_within(d_.gbuffer, d_.surfels.size(), most);
+    SurfelSizes sizes = sizes_within(d_.gbuffer, d_.surfels.size(), most, lamp_places());
     std::vector<int> part_levels;
     for (const scene::Bounds& swept : d_.swept) part_levels.push_back(sizes.level(swept));
     d_.surfels = SurfelSet(d_.source, std::move(sizes), std::move(part_levels));
+  }
+
+  /// On the scene's own lamps as they are first: surfels follow none that move.
+  std::vector<vec3> lamp_places() const {
+    constexpr int per_group = 1024;
+    std::vector<mat4> poses;
+    for (int part = 0; part < d_.source.part_count(); ++part) poses.push_back(d_.source.part_pose(part, 0));
+    const auto light = d_.source.direct_light(d_.source.lights(0), poses);
+    std::vector<vec3> places;
+    for (std::size_t group = 0; group < d_.source.light_groups().size(); ++group) {
+      const std::vector<vec3> of_group = light->emitter_places(static_cast<int>(group), per_group);
+      places.insert(places.end(), of_group.begin(), of_group.end());
+    }
+    return places;
   }
 
   void add_probe_hits() {

@@ -9,48 +9,67 @@
 
 namespace ssphh::transport {
 
-struct SurfelSizes::Probes {
-  explicit Probes(std::span<const vec3> at) : places(at.begin(), at.end()), nearest(at) {
+struct SurfelSizes::Places {
+  Places(std::span<const vec3> at, std::span<const vec3> lamps)
+      : probes(at.begin(), at.end()), nearest_probe(at), nearest_lamp(lamps) {
     std::array<geometry::Near, 2> two;
-    for (const vec3& place : places) {
-      const int found = nearest.find(place, two);
+    for (const vec3& place : probes) {
+      const int found = nearest_probe.find(place, two);
       apart.push_back(found == 2 ? std::sqrt(two[1].distance2) : 0);
     }
   }
-  std::vector<vec3> places;
-  geometry::NearestPoints nearest;
-  std::vector<float> apart;  ///< from the nearest other one; 0: there is none
+  std::vector<vec3> probes;
+  geometry::NearestPoints nearest_probe, nearest_lamp;
+  std::vector<float> apart;  ///< from the nearest other probe; 0: there is none
 };
 
-SurfelSizes::SurfelSizes(float finest, std::span<const vec3> probes, float share)
-    : finest_(finest), share_(share), probes_(std::make_shared<Probes>(probes)) {}
+SurfelSizes::SurfelSizes(float size, std::span<const vec3> lamps)
+    : finest_(size), usual_(size), most_(0), share_(0.5f) {
+  if (lamps.empty()) return;
+  constexpr float fine_enough = 0.25f;
+  constexpr int most_halvings = 3;
+  while (finest_ > fine_enough && most_ < most_halvings) finest_ /= 2, ++most_;
+  if (most_ == 0) return;
+  places_ = std::make_shared<Places>(std::span<const vec3>(), lamps);
+}
+
+SurfelSizes::SurfelSizes(float finest, std::span<const vec3> probes, float share, std::span<const vec3> lamps)
+    : finest_(finest),
+      usual_(finest),
+      most_(most_level),
+      share_(share),
+      places_(std::make_shared<Places>(probes, lamps)) {}
 
 namespace {
 
-int doublings(float size, float finest) {
+int doublings(float size, float finest, int most) {
   if (!(size > finest)) return 0;
-  return std::min(static_cast<int>(std::log2(size / finest)), SurfelSizes::most_level);
+  const float count = std::log2(size / finest);
+  return count < static_cast<float>(most) ? static_cast<int>(count) : most;
 }
 
 }  // namespace
 
 int SurfelSizes::level(const vec3& position) const {
-  if (!probes_) return 0;
+  if (!places_) return 0;
+  float local = std::numeric_limits<float>::infinity();
   geometry::Near near{};
-  probes_->nearest.find(position, {&near, 1});
-  const float apart = probes_->apart[near.index];
-  return doublings(share_ * std::max(std::sqrt(near.distance2), apart), finest_);
+  if (places_->nearest_probe.find(position, {&near, 1}) > 0)
+    local = std::max(std::sqrt(near.distance2), places_->apart[near.index]);
+  if (places_->nearest_lamp.find(position, {&near, 1}) > 0)
+    local = std::min(local, std::sqrt(near.distance2));
+  return doublings(share_ * local, finest_, most_);
 }
 
 int SurfelSizes::level(const scene::Bounds& box) const {
-  if (!probes_ || box.empty()) return 0;
+  if (!places_ || box.empty()) return 0;
   float local = std::numeric_limits<float>::infinity();
-  for (std::size_t i = 0; i < probes_->places.size(); ++i) {
-    const vec3& probe = probes_->places[i];
+  for (std::size_t i = 0; i < places_->probes.size(); ++i) {
+    const vec3& probe = places_->probes[i];
     const float distance = glm::distance(probe, glm::clamp(probe, box.min, box.max));
-    local = std::min(local, std::max(distance, probes_->apart[i]));
+    local = std::min(local, std::max(distance, places_->apart[i]));
   }
-  return doublings(share_ * local, finest_);
+  return doublings(share_ * local, finest_, most_);
 }
 
 namespace {
@@ -101,13 +120,14 @@ double estimated_surfels(const ProbeGBuffer& gbuffer, const SurfelSizes& sizes) 
   return surfels_of(patches_of(gbuffer), sizes);
 }
 
-SurfelSizes sizes_within(const ProbeGBuffer& gbuffer, float finest, std::size_t most) {
+SurfelSizes sizes_within(const ProbeGBuffer& gbuffer, float finest, std::size_t most,
+                         std::span<const vec3> lamps) {
   const std::vector<Patch> patches = patches_of(gbuffer);
-  SurfelSizes sizes(finest);
+  SurfelSizes sizes(finest, lamps);
   if (surfels_of(patches, sizes) <= static_cast<double>(most)) return sizes;
   constexpr float first_share = 1.0f / 12, last_share = 16;
   for (float share = first_share; share <= last_share; share *= 1.25f) {
-    sizes = SurfelSizes(finest, gbuffer.positions, share);
+    sizes = SurfelSizes(finest, gbuffer.positions, share, lamps);
     if (surfels_of(patches, sizes) <= static_cast<double>(most) / 6) break;
   }
   return sizes;

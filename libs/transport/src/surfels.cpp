@@ -11,7 +11,9 @@
 namespace ssphh::transport {
 namespace {
 
-constexpr int axis_bits = 15;
+constexpr int axis_bits = 18;
+/// Along an axis; those near lamps are down to an eighth as large.
+constexpr float most_voxels = (1 << (axis_bits - 3)) - 8;
 constexpr std::size_t max_members = 48;
 
 /// Which of ±x, ±y, ±z the normal is nearest to: 0..5.
@@ -31,7 +33,7 @@ struct CellResult {
 
 SurfelSet::SurfelSet(const rays::TransportSource& source, SurfelSizes sizes, std::vector<int> part_levels)
     : source_(&source), sizes_(std::move(sizes)), part_levels_(std::move(part_levels)) {
-  const float size = sizes_.finest();
+  const float size = sizes_.usual();
   if (!(size > 0) || !std::isfinite(size))
     throw Error("surfel size", fmt::format("{} m is no size", size), "give a positive number of metres");
   part_levels_.resize(static_cast<std::size_t>(source.part_count()), 0);
@@ -42,7 +44,7 @@ SurfelSet::SurfelSet(const rays::TransportSource& source, SurfelSizes sizes, std
     origin_.push_back(bounds.empty() ? vec3(0) : bounds.min);
     if (bounds.empty()) continue;
     const float extent = max_component(bounds.max - bounds.min);
-    if (extent / size > static_cast<float>((1 << axis_bits) - 8)) {
+    if (extent / size > most_voxels) {
       throw Error("surfel size", fmt::format("{} m divides a scene of {} m too finely", size, extent),
                   fmt::format("at least {:.3g} m", extent / 32000));
     }

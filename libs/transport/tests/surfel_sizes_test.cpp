@@ -55,6 +55,27 @@ TEST(SurfelSizes, DoubleWithTheDistanceOfProbesAndWithThatBetweenThem) {
   EXPECT_EQ(alone.level(vec3(0, 0, 3.3f)), 3);
 }
 
+TEST(SurfelSizes, AreHalvedNearLampsWhereTheyAreLarge) {
+  const std::vector<vec3> lamps{{0, 3, 0}, {20, 3, 0}};
+  const SurfelSizes sizes(1.6f, lamps);
+  EXPECT_EQ(sizes.usual(), 1.6f);
+  const auto at = [&](const vec3& x) { return sizes.size(sizes.level(x)); };
+  EXPECT_FLOAT_EQ(at({0, 3, 0.01f}), 0.2f) << "an eighth at least";
+  EXPECT_FLOAT_EQ(at({0, 3, 0.79f}), 0.2f) << "half the distance is less than 0.4";
+  EXPECT_FLOAT_EQ(at({19, 3, 0}), 0.4f);
+  EXPECT_FLOAT_EQ(at({0, 0, 0}), 0.8f);
+  EXPECT_FLOAT_EQ(at({0, 3, 3.3f}), 1.6f);
+  EXPECT_FLOAT_EQ(at({1e6f, 0, 0}), 1.6f);
+  EXPECT_EQ(sizes.size(sizes.level(scene::Bounds{vec3(-1), vec3(30)})), 1.6f) << "things that move";
+  EXPECT_EQ(SurfelSizes(0.25f, lamps).finest(), 0.25f) << "fine enough";
+  // Where probes rule, lamps do beside them
+  const std::vector<vec3> probes{{0, 3, 40}};
+  const SurfelSizes far(0.1f, probes, 0.25f), lit(0.1f, probes, 0.25f, lamps);
+  EXPECT_EQ(far.level(vec3(0, 3, 1)), 6) << "6.4 is no more than a quarter of 39";
+  EXPECT_EQ(lit.level(vec3(0, 3, 1)), 1) << "0.2 is no more than a quarter of 1";
+  EXPECT_EQ(lit.level(vec3(0, 3, 40)), 0);
+}
+
 TEST(SurfelSizes, AreTheDoublingsThatTheHeaderTellsOf) {
   Pcg32 random(7);
   std::vector<vec3> probes;

@@ -134,6 +134,10 @@ class DirectLight {
   virtual std::optional<Photon> emit(int /*group*/, const PhotonNumbers& /*numbers*/) const {
     refuse("direct light", "it cannot emit photons");
   }
+  /// Places on the group's emitters that are not at infinity, `count` or somewhat more, at least one on each
+  /// that shines, more where more light leaves: what is lit from so near is lit unevenly. The same at every
+  /// call; none where the source does not tell.
+  virtual std::vector<vec3> emitter_places(int /*group*/, int /*count*/) const { return {}; }
 };
 
 class RadianceSource;

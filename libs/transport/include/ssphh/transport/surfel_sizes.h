@@ -1,6 +1,7 @@
 #pragma once
-/// How large surfels are: one size where probes are near, and twice, four times, ... as large where they are
-/// far or far apart, so that a plain of ten kilometres costs little more than the house that stands on it.
+/// How large surfels are: one size, half, a quarter, ... of it near lamps, from where light falls unevenly;
+/// where that makes too many, twice, four times, ... as large far from probes, so that a plain of ten
+/// kilometres costs little more than the house that stands on it.
 
 #include <memory>
 #include <span>
@@ -14,26 +15,31 @@ class SurfelSizes {
  public:
   static constexpr int most_level = 15;  ///< doublings: surfels of a millimetre grow to 33 m at most
 
-  /// Surfels are of one `size` [m] everywhere.
-  explicit SurfelSizes(float size) : finest_(size) {}
+  /// Surfels are of one `size` [m]. Near `lamps`, those over 0.25 m are halved up to three times, down to
+  /// half the distance of the nearest lamp: a room's are fine enough.
+  explicit SurfelSizes(float size, std::span<const vec3> lamps = {});
   /// `finest` [m], or the largest of its doublings that is no more than `share` of the local distance: that
-  /// of the nearest probe, or of this probe's nearest neighbour where that is more.
-  SurfelSizes(float finest, std::span<const vec3> probes, float share);
+  /// of the nearest probe, or of this probe's nearest neighbour where that is more; of the nearest of `lamps`
+  /// where that is less.
+  SurfelSizes(float finest, std::span<const vec3> probes, float share, std::span<const vec3> lamps = {});
 
   float finest() const { return finest_; }
+  /// That of surfels which are neither near lamps nor far from probes [m].
+  float usual() const { return usual_; }
   /// The size of a level [m].
   float size(int level) const { return finest_ * static_cast<float>(1 << level); }
   /// Doublings of the finest size at a place, 0..most_level.
   int level(const vec3& position) const;
-  /// The smallest level within a box.
+  /// The smallest level within a box that things move in, whose lamps may move, too: as if there were none.
   int level(const scene::Bounds& box) const;
 
  private:
-  struct Probes;
+  struct Places;
 
-  float finest_;
+  float finest_, usual_;
+  int most_;  ///< doublings
   float share_ = 0;
-  std::shared_ptr<const Probes> probes_;  ///< null: one size
+  std::shared_ptr<const Places> places_;  ///< null: one size
 };
 
 /// About how many surfels the surfaces have that probes see: a ray stands for as much surface as its share of
@@ -41,7 +47,8 @@ class SurfelSizes {
 double estimated_surfels(const ProbeGBuffer& gbuffer, const SurfelSizes& sizes);
 
 /// `finest` [m] everywhere if that makes about `most` surfels or fewer, else as much larger far from probes
-/// as it takes to come down to a sixth of that (clutter makes more of them than its area tells).
-SurfelSizes sizes_within(const ProbeGBuffer& gbuffer, float finest, std::size_t most);
+/// and lamps as it takes to come down to a sixth of that (clutter makes more of them than its area tells).
+SurfelSizes sizes_within(const ProbeGBuffer& gbuffer, float finest, std::size_t most,
+                         std::span<const vec3> lamps = {});
 
 }  // namespace ssphh::transport

@@ -28,7 +28,7 @@ struct Surfel {
   float height = 0;  ///< where sight toward it ends, above the representative [m]
 };
 
-/// Where rays leave a surface: this share of the finest voxels' edge above it.
+/// Where rays leave a surface: this share of the usual voxels' edge above it.
 inline constexpr float link_lift = 2e-3f;
 
 inline constexpr int no_surfel = -1;
@@ -38,15 +38,15 @@ inline constexpr int no_patch = -1;
 class SurfelSet {
  public:
   /// `sizes` are the voxels' edges; a moving part has one, `part_levels[part]` (the finest where the list
-  /// ends). Keeps a reference to `source`. Throws Error for a finest size that makes more than 2^15 voxels
+  /// ends). Keeps a reference to `source`. Throws Error for a usual size that makes more than 2^15 voxels
   /// along an axis of a part.
   SurfelSet(const rays::TransportSource& source, SurfelSizes sizes, std::vector<int> part_levels = {});
   SurfelSet(const rays::TransportSource& source, float size) : SurfelSet(source, SurfelSizes(size)) {}
   SurfelSet(const rays::TransportSource&&, SurfelSizes, std::vector<int> = {}) = delete;  // it would be gone
   SurfelSet(const rays::TransportSource&&, float) = delete;
 
-  /// The edge of the finest voxels [m].
-  float size() const { return sizes_.finest(); }
+  /// The edge of voxels that are neither near lamps nor far from probes [m].
+  float size() const { return sizes_.usual(); }
   /// The edge of the largest voxels that hold a surfel [m].
   float coarsest() const;
   /// The level of a part's point: doublings of the finest voxels' edge.
