@@ -40,9 +40,10 @@ class PictureList : public WithGl {
     if (!gl().info().software) GTEST_SKIP() << "filters of other hardware have other bits";
     renderer_.emplace(gl(), scene_, quick);
   }
-  void draw(const std::string& name, const FrameSettings& settings) {
+  void draw(const std::string& name, const FrameSettings& settings,
+            double slack = ListedPictures::of_drivers) {
     renderer_->draw(scene::camera_pose(scene_, ""), settings, {.width = 16, .height = 12});
-    pictures_.add(name, renderer_->read_back());
+    pictures_.add(name, renderer_->read_back(), slack);
   }
 
   /// Blocks of frame, distant lights, emitters, materials, instances and cones, and what `units` hold.
@@ -108,7 +109,7 @@ TEST_F(PictureList, OfLookedUpLightIsWhatItWas) {
   draw("chosen", {.weights = WeightMethod::distance, .view = View::chosen_sphl});
   renderer_->set_fitted(prepared(scene_, fitted, tracer));
   draw("fitted", {.view = View::indirect});
-  list_state("fitted", 8, 11);
+  list_state("fitted", 10, 11);  // the lists before it hang on rays that graze, as vct's voxels do
   draw("interpolated",
        {.indirect_scale = 3, .ambient_occlusion = true, .occlusion_radius = 0.8f, .view = View::indirect});
   change_lighting(*renderer_, [&](auto& state) {
@@ -123,6 +124,9 @@ TEST_F(PictureList, OfLookedUpLightIsWhatItWas) {
 
 TEST_F(PictureList, OfOtherMethodsIsWhatItWas) {
   const trace::TransportScene source(scene_);
+  // Embree divides by approximate reciprocals, whose last bits differ between makers of processors: a ray
+  // that grazes an edge passes on one and ends on the other, and voxels are lit by rays.
+  constexpr double of_processors = 5e-3;
   const std::array<std::pair<std::string, std::vector<std::string>>, 3> methods = {
       {{"vct", {"resolution=16", "bounces=1"}},
        {"vpl", {"photons=12", "check_points=0", "kind=point"}},
@@ -133,9 +137,11 @@ TEST_F(PictureList, OfOtherMethodsIsWhatItWas) {
         entry.make({scene_, source}, methods::MethodParameters(name, entry.parameters, settings), {});
     method->update(rays::lighting_at(source), {});
     renderer_->set_method_light(method->light_data());
-    draw(settings.back(), {.view = View::indirect});
-    list_state(settings.back(), 4, 5);
-    draw(settings.back() + ", interpolated", {.indirect_scale = 2, .view = View::indirect});
+    const bool voxels = name == "vct";
+    const double slack = voxels ? of_processors : ListedPictures::of_drivers;
+    draw(settings.back(), {.view = View::indirect}, slack);
+    list_state(settings.back(), voxels ? 5 : 4, 5);
+    draw(settings.back() + ", interpolated", {.indirect_scale = 2, .view = View::indirect}, slack);
   }
   pictures_.expect("tests/realtime/expected/methods.txt");
   expect_text_of("tests/realtime/expected/methods-state.txt", state_);

@@ -34,18 +34,20 @@ std::optional<rays::Photon> PosedLight::emit(int group, const rays::PhotonNumber
   return photon;
 }
 
-std::vector<vec3> PosedLight::emitter_places(int group, int count) const {
-  const auto near_flux = [&](const GroupEmitter& light) {
-    return light.emitter.distant() ? 0 : lights_.flux(light.index, geometry_.bounds().radius());
+std::vector<vec3> PosedLight::emitter_places(int group, float widest, int count) const {
+  const auto flux_of = [&](const GroupEmitter& light) {
+    const scene::Bounds& box = light.emitter.extent;
+    const bool counts =
+        !light.emitter.distant() && !light.emitter.delta() && max_component(box.max - box.min) <= widest;
+    return counts ? lights_.flux(light.index, geometry_.bounds().radius()) : 0;
   };
   float all = 0;
-  for (const GroupEmitter& light : emitters_of(group)) all += near_flux(light);
+  for (const GroupEmitter& light : emitters_of(group)) all += flux_of(light);
   std::vector<vec3> places;
   for (const GroupEmitter& light : emitters_of(group)) {
-    const float flux = near_flux(light);
+    const float flux = flux_of(light);
     if (!(flux > 0)) continue;
-    const int here =
-        light.emitter.kind == shading::EmitterKind::point ? 1 : static_cast<int>(count * (flux / all)) + 1;
+    const int here = static_cast<int>(static_cast<float>(count) * (flux / all)) + 1;
     for (int i = 0; i < here; ++i) {
       SampleSequence random(0, static_cast<std::uint32_t>(i));
       const vec2 u_place = random.next2(), u_direction = random.next2();

@@ -39,7 +39,7 @@ class PosedLight final : public rays::DirectLight {
                                                      int samples) const override;
   float flux(int group) const override;
   std::optional<rays::Photon> emit(int group, const rays::PhotonNumbers& numbers) const override;
-  std::vector<vec3> emitter_places(int group, int count) const override;
+  std::vector<vec3> emitter_places(int group, float widest, int count) const override;
 
  private:
   struct GroupEmitter {

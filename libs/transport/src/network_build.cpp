@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 
 #include "mirrors.h"
 #include "network_data.h"
@@ -92,15 +93,18 @@ class NetworkBuilder {
     d_.surfels = SurfelSet(d_.source, std::move(sizes), std::move(part_levels));
   }
 
-  /// On the scene's own lamps as they are first: surfels follow none that move.
+  /// On the scene's own lamps as they are first, for surfels follow none that move; on those that are smaller
+  /// than a surfel, beside which light falls off within one.
   std::vector<vec3> lamp_places() const {
     constexpr int per_group = 1024;
     std::vector<mat4> poses;
     for (int part = 0; part < d_.source.part_count(); ++part) poses.push_back(d_.source.part_pose(part, 0));
     const auto light = d_.source.direct_light(d_.source.lights(0), poses);
+    require(light != nullptr, "transport source", "it gives no direct light");
     std::vector<vec3> places;
     for (std::size_t group = 0; group < d_.source.light_groups().size(); ++group) {
-      const std::vector<vec3> of_group = light->emitter_places(static_cast<int>(group), per_group);
+      const std::vector<vec3> of_group =
+          light->emitter_places(static_cast<int>(group), d_.surfels.size(), per_group);
       places.insert(places.end(), of_group.begin(), of_group.end());
     }
     return places;

@@ -26,10 +26,9 @@ struct SurfelSizes::Places {
 SurfelSizes::SurfelSizes(float size, std::span<const vec3> lamps)
     : finest_(size), usual_(size), most_(0), share_(0.5f) {
   if (lamps.empty()) return;
-  constexpr float fine_enough = 0.25f;
-  constexpr int most_halvings = 3;
-  while (finest_ > fine_enough && most_ < most_halvings) finest_ /= 2, ++most_;
-  if (most_ == 0) return;
+  constexpr int halvings = 3;
+  finest_ = size / static_cast<float>(1 << halvings);
+  most_ = halvings;
   places_ = std::make_shared<Places>(std::span<const vec3>(), lamps);
 }
 

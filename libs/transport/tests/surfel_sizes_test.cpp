@@ -55,7 +55,7 @@ TEST(SurfelSizes, DoubleWithTheDistanceOfProbesAndWithThatBetweenThem) {
   EXPECT_EQ(alone.level(vec3(0, 0, 3.3f)), 3);
 }
 
-TEST(SurfelSizes, AreHalvedNearLampsWhereTheyAreLarge) {
+TEST(SurfelSizes, AreHalvedNearLamps) {
   const std::vector<vec3> lamps{{0, 3, 0}, {20, 3, 0}};
   const SurfelSizes sizes(1.6f, lamps);
   EXPECT_EQ(sizes.usual(), 1.6f);
@@ -67,7 +67,6 @@ TEST(SurfelSizes, AreHalvedNearLampsWhereTheyAreLarge) {
   EXPECT_FLOAT_EQ(at({0, 3, 3.3f}), 1.6f);
   EXPECT_FLOAT_EQ(at({1e6f, 0, 0}), 1.6f);
   EXPECT_EQ(sizes.size(sizes.level(scene::Bounds{vec3(-1), vec3(30)})), 1.6f) << "things that move";
-  EXPECT_EQ(SurfelSizes(0.25f, lamps).finest(), 0.25f) << "fine enough";
   // Where probes rule, lamps do beside them
   const std::vector<vec3> probes{{0, 3, 40}};
   const SurfelSizes far(0.1f, probes, 0.25f), lit(0.1f, probes, 0.25f, lamps);

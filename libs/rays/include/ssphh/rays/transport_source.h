@@ -134,10 +134,12 @@ class DirectLight {
   virtual std::optional<Photon> emit(int /*group*/, const PhotonNumbers& /*numbers*/) const {
     refuse("direct light", "it cannot emit photons");
   }
-  /// Places on the group's emitters that are not at infinity, `count` or somewhat more, at least one on each
-  /// that shines, more where more light leaves: what is lit from so near is lit unevenly. The same at every
-  /// call; none where the source does not tell.
-  virtual std::vector<vec3> emitter_places(int /*group*/, int /*count*/) const { return {}; }
+  /// Places on the group's emitters that have a surface and whose box is no wider than `widest` metres along
+  /// any axis: `count` or somewhat more, at least one on each that shines, more where more light leaves. The
+  /// same at every call; none where the source does not tell.
+  virtual std::vector<vec3> emitter_places(int /*group*/, float /*widest*/, int /*count*/) const {
+    return {};
+  }
 };
 
 class RadianceSource;

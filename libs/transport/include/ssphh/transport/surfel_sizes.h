@@ -15,8 +15,8 @@ class SurfelSizes {
  public:
   static constexpr int most_level = 15;  ///< doublings: surfels of a millimetre grow to 33 m at most
 
-  /// Surfels are of one `size` [m]. Near `lamps`, those over 0.25 m are halved up to three times, down to
-  /// half the distance of the nearest lamp: a room's are fine enough.
+  /// Surfels are of one `size` [m], halved near `lamps`, up to three times, down to half the distance of the
+  /// nearest one.
   explicit SurfelSizes(float size, std::span<const vec3> lamps = {});
   /// `finest` [m], or the largest of its doublings that is no more than `share` of the local distance: that
   /// of the nearest probe, or of this probe's nearest neighbour where that is more; of the nearest of `lamps`
