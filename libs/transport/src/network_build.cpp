@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/error.h>
-#include <ssphh/core/require.h>
 
 #include "mirrors.h"
 #include "network_data.h"
@@ -96,12 +95,12 @@ class NetworkBuilder {
   /// On the scene's own lamps as they are first, for surfels follow none that move; on those that are smaller
   /// than a surfel, beside which light falls off within one.
   std::vector<vec3> lamp_places() const {
-    constexpr int per_group = 1024;
+    constexpr int per_group = 256;
     std::vector<mat4> poses;
     for (int part = 0; part < d_.source.part_count(); ++part) poses.push_back(d_.source.part_pose(part, 0));
     const auto light = d_.source.direct_light(d_.source.lights(0), poses);
-    require(light != nullptr, "transport source", "it gives no direct light");
     std::vector<vec3> places;
+    if (!light) return places;
     for (std::size_t group = 0; group < d_.source.light_groups().size(); ++group) {
       const std::vector<vec3> of_group =
           light->emitter_places(static_cast<int>(group), d_.surfels.size(), per_group);

@@ -55,7 +55,8 @@ int SurfelSizes::level(const vec3& position) const {
   geometry::Near near{};
   if (places_->nearest_probe.find(position, {&near, 1}) > 0)
     local = std::max(std::sqrt(near.distance2), places_->apart[near.index]);
-  if (places_->nearest_lamp.find(position, {&near, 1}) > 0)
+  const float lamp_reach = std::min(local, size(most_) / share_);  // beyond it, lamps change nothing
+  if (places_->nearest_lamp.find(position, {&near, 1}, lamp_reach) > 0)
     local = std::min(local, std::sqrt(near.distance2));
   return doublings(share_ * local, finest_, most_);
 }
