@@ -26,7 +26,7 @@ struct SurfelSizes::Places {
 SurfelSizes::SurfelSizes(float size, std::span<const vec3> lamps)
     : finest_(size), usual_(size), most_(0), share_(0.5f) {
   if (lamps.empty()) return;
-  constexpr int halvings = 3;
+  constexpr int halvings = 2;
   finest_ = size / static_cast<float>(1 << halvings);
   most_ = halvings;
   places_ = std::make_shared<Places>(std::span<const vec3>(), lamps);

@@ -11,9 +11,9 @@
 namespace ssphh::transport {
 namespace {
 
-constexpr int axis_bits = 18;
-/// Along an axis; those near lamps are down to an eighth as large.
-constexpr float most_voxels = (1 << (axis_bits - 3)) - 8;
+constexpr int axis_bits = 17;
+/// Along an axis; those near lamps are down to a quarter as large.
+constexpr float most_voxels = (1 << (axis_bits - 2)) - 8;
 constexpr std::size_t max_members = 48;
 
 /// Which of ±x, ±y, ±z the normal is nearest to: 0..5.

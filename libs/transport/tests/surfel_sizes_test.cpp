@@ -60,8 +60,8 @@ TEST(SurfelSizes, AreHalvedNearLamps) {
   const SurfelSizes sizes(1.6f, lamps);
   EXPECT_EQ(sizes.usual(), 1.6f);
   const auto at = [&](const vec3& x) { return sizes.size(sizes.level(x)); };
-  EXPECT_FLOAT_EQ(at({0, 3, 0.01f}), 0.2f) << "an eighth at least";
-  EXPECT_FLOAT_EQ(at({0, 3, 0.79f}), 0.2f) << "half the distance is less than 0.4";
+  EXPECT_FLOAT_EQ(at({0, 3, 0.01f}), 0.4f) << "a quarter at least";
+  EXPECT_FLOAT_EQ(at({0, 3, 1.59f}), 0.4f) << "half the distance is less than 0.8";
   EXPECT_FLOAT_EQ(at({19, 3, 0}), 0.4f);
   EXPECT_FLOAT_EQ(at({0, 0, 0}), 0.8f);
   EXPECT_FLOAT_EQ(at({0, 3, 3.3f}), 1.6f);

@@ -15,7 +15,7 @@ class SurfelSizes {
  public:
   static constexpr int most_level = 15;  ///< doublings: surfels of a millimetre grow to 33 m at most
 
-  /// Surfels are of one `size` [m], halved near `lamps`, up to three times, down to half the distance of the
+  /// Surfels are of one `size` [m], halved near `lamps`, once or twice, down to half the distance of the
   /// nearest one.
   explicit SurfelSizes(float size, std::span<const vec3> lamps = {});
   /// `finest` [m], or the largest of its doublings that is no more than `share` of the local distance: that
