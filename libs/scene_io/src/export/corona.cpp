@@ -10,6 +10,7 @@
 #include <ssphh/scene/primitives.h>
 #include <ssphh/scene_io/renderer_export.h>
 
+#include "corona_obj.h"
 #include "export_steps.h"
 #include "surface_model.h"
 #include "xml_writer.h"
@@ -39,37 +40,6 @@ constexpr float distance_of_sky = 1000;         // in radii of the scene
 
 std::string numbers(const vec3& v) {
   return fmt::format("{} {} {}", v.x, v.y, v.z);
-}
-
-// Faces name a normal at each corner: the format demands it.
-std::string encode_obj(const scene::Mesh& mesh, std::span<const vec2> uv) {
-  std::string out;
-  auto to = std::back_inserter(out);
-  for (const vec3& p : mesh.positions) fmt::format_to(to, "v {} {} {}\n", p.x, p.y, p.z);
-  for (const vec2& t : uv) fmt::format_to(to, "vt {} {} 0\n", t.x, t.y);
-  for (const vec3& n : mesh.normals) fmt::format_to(to, "vn {} {} {}\n", n.x, n.y, n.z);
-  if (mesh.normals.empty()) {
-    for (const uvec3& t : mesh.triangles) {
-      const vec3 a = mesh.positions[t.x];
-      const vec3 cross = glm::cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a);
-      const float length = glm::length(cross);
-      fmt::format_to(to, "vn {}\n", numbers(length > 0 ? cross / length : vec3(0, 1, 0)));
-    }
-  }
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    out += 'f';
-    for (int c = 0; c < 3; ++c) {
-      const std::uint64_t v = std::uint64_t{mesh.triangles[i][c]} + 1;
-      const std::uint64_t n = mesh.normals.empty() ? i + 1 : v;
-      if (uv.empty()) {
-        fmt::format_to(to, " {}//{}", v, n);
-      } else {
-        fmt::format_to(to, " {}/{}/{}", v, v, n);
-      }
-    }
-    out += '\n';
-  }
-  return out;
 }
 
 // Linear OpenEXR throughout: the format knows a power as transfer curve, not sRGB's.
@@ -160,7 +130,7 @@ void write_mesh(Export& e, const std::string& name, const std::string& material,
                 std::vector<vec2> uv) {
   for (vec2& t : uv) t.y = 1 - t.y;
   const std::string file = fmt::format("mesh{}.obj", e.meshes++);
-  write_file(e.directory / file, encode_obj(mesh, uv));
+  write_file(e.directory / file, encode_corona_obj(mesh, uv));
   e.files.push_back(e.directory / file);
   e.scn.comment(name);
   e.scn.open("geometryGroup");
