@@ -280,9 +280,9 @@ class Preparation {
            sees_(glm::mix(from, to, last + off_sheet), to);
   }
 
-  /// Asks a few samples first, then the others where those disagree.
+  /// Asks some samples first, then the others where those disagree. Among few, none would lie in a thin wall.
   void ask(Work::Candidate& candidate, Work& work) const {
-    constexpr std::size_t few = 16;
+    constexpr std::size_t few = 32;
     const std::size_t count = candidate.asked.size(), step = (count + few - 1) / few;
     std::size_t asked = 0, seen = 0;
     candidate.seen.assign(count, Seen::no);

@@ -160,6 +160,24 @@ TEST(SurfaceLists, FarPointsOfAPlainAreNotSeenFromUnderAHouse) {
   }
 }
 
+TEST(SurfaceLists, TheFloorUnderAWallHasNoSay) {
+  // A few samples are asked first. All of them may see a point that those within the wall, fewer, do not.
+  FittedPoints fitted = around_body();
+  fitted.points.pop_back(), fitted.weights.pop_back();
+  scene::Scene scene = body_on_a_floor();
+  for (int shift = 0; shift < 40; ++shift) {
+    const float at = 0.005f * static_cast<float>(shift);
+    const vec3 below(at, -0.1f, -3), top(at + 0.14f, 1.2f, 3);
+    scene.meshes[1] = scene::make_box(below, top);
+    scene.meshes[1].material = 0;
+    const auto sees = [&](const vec3& a, const vec3& b) { return misses(below, top, a, b); };
+    const SurfaceLists surfaces = prepare_fitted(scene, 0, fitted, sees).surfaces;
+    for (const float x : {at - 0.004f, top.x + 0.004f})
+      for (float z = -1; z < 1; z += 0.05f)
+        EXPECT_GE(lighting(surfaces, {x, 0, z}).size(), 2u) << x << " " << z << " beside a wall at " << at;
+  }
+}
+
 TEST(SurfaceLists, APictureBeforeAWallHasItsOwnPoints) {
   // Its front, its back and the wall lie in one part of a cell, by turns with a border between two of them.
   for (int shift = 0; shift < 10; ++shift) {
