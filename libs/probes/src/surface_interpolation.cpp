@@ -72,16 +72,24 @@ int surface_cover(const rays::SurfacePoint& point, float spacing, const SeesProb
   require(sees != nullptr, "surface points", "nothing tells what sees them");
   constexpr int rays = 16;
   const Frame frame = Frame::around(point.normal);
-  const vec3 origin = point.position + fitted_lift * spacing * point.normal;
-  int cover = 0;
-  for (float length = spacing / 2; cover < most_cover; length /= 2, ++cover) {
-    int blocked = 0;
+  const auto blocked = [&](float lift, float length) {
+    const vec3 origin = point.position + lift * point.normal;
+    int count = 0;
     for (int i = 0; i < rays; ++i) {
       const vec2 u((static_cast<float>(i) + 0.5f) / rays, glm::fract(0.618034f * static_cast<float>(i)));
-      const vec3 direction = frame.to_world(sample_cosine_hemisphere(u));
-      blocked += !sees(origin, origin + length * direction);
+      count += !sees(origin, origin + length * frame.to_world(sample_cosine_hemisphere(u)));
     }
-    if (4 * blocked <= 3 * rays) break;
+    return count;
+  };
+  // A kerb beside the point, unlike a wall, is no more in the way a little higher
+  const auto by_a_kerb = [&](float length) {
+    const float near = length / 8;
+    const int low = blocked(2 * fitted_lift * near, near);
+    return 8 * low >= 3 * rays && 2 * blocked(length / 4, length) <= low;
+  };
+  int cover = 0;
+  for (float length = spacing / 2; cover < most_cover; length /= 2, ++cover) {
+    if (4 * blocked(fitted_lift * spacing, length) <= 3 * rays && !by_a_kerb(length)) break;
   }
   return cover;
 }

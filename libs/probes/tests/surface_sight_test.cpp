@@ -155,6 +155,22 @@ TEST(SurfaceCover, TellsHowNarrowItIsBeforeAPoint) {
   EXPECT_EQ(surface_cover({{0.001f, 0, 0}, {0, 1, 0}}, 1, wall), 0);
 }
 
+TEST(SurfaceCover, TellsOfAKerb) {
+  // The lower it is and the nearer, the nearer what it lights: to a few times its height
+  const auto beside = [](float height, float distance) {
+    const auto sees = [&](const vec3& a, const vec3& b) {
+      if ((a.x < 0) == (b.x < 0)) return true;
+      const float t = a.x / (a.x - b.x);
+      return a.y + t * (b.y - a.y) > height;
+    };
+    return surface_cover({{distance, 0, 0}, {0, 1, 0}}, 1, sees);
+  };
+  EXPECT_EQ(beside(0.02f, 0.002f), 3);
+  EXPECT_EQ(beside(0.1f, 0.002f), 1);
+  EXPECT_EQ(beside(0.02f, 0.1f), 0);
+  EXPECT_EQ(beside(1, 0.002f), 0);
+}
+
 TEST(CoverFactor, FallsBeyondTheOpenDistance) {
   EXPECT_EQ(cover_factor(0, 100, 1), 1);
   for (int cover = 1; cover <= most_cover; ++cover) {
@@ -192,6 +208,27 @@ TEST(SurfaceInterpolation, WhatLiesBehindAPictureDarkensNothingBesideIt) {
     vec3 found;
     ASSERT_TRUE(records.irradiance({{x, 0, 1.1f}, {0, 1, 0}}, light, found));
     EXPECT_NEAR(found.y, 1, 0.03f) << x;
+  }
+}
+
+TEST(SurfaceInterpolation, WhatAKerbLightsIsNotTheRoad) {
+  // One of the records stands beside a kerb as high as a fortieth of a spacing, in the sun
+  std::vector<rays::SurfacePoint> road = floor_grid(9, 0.4f);
+  const float kerb = 0.01f;
+  road[middle_of(9)].position.x = 1.601f;
+  const auto sees = [&](const vec3& a, const vec3& b) {
+    if ((a.x < 1.6f) == (b.x < 1.6f)) return true;
+    const float t = (1.6f - a.x) / (b.x - a.x);
+    return a.y + t * (b.y - a.y) > kerb;
+  };
+  std::vector<RecordLight> light(road.size(), RecordLight(0));
+  for (RecordLight& l : light) l[3] = vec3(1, 2, 3);
+  light[middle_of(9)][3] = vec3(80, 60, 40);
+  const SurfaceInterpolation records(road, sees);
+  for (const float x : {1.9f, 2.1f}) {
+    vec3 found;
+    ASSERT_TRUE(records.irradiance({{x, 0, 1.6f}, {0, 1, 0}}, light, found));
+    EXPECT_LT(glm::distance(found / vec3(1, 2, 3), vec3(1)), 0.15f) << x << " " << found.x;
   }
 }
 

@@ -28,7 +28,8 @@ bool see_along_surface(const rays::SurfacePoint& a, const rays::SurfacePoint& b,
 
 /// How narrow it is before a point: 0 where at most three quarters of its light come from nearer than half a
 /// spacing, else one more for each halving of that distance, 4 at most. What lies behind a picture's frame
-/// says little of the wall beside it.
+/// says little of the wall beside it; and what a kerb, low beside the distance, lights from nearer than an
+/// eighth of it, little of the road.
 int surface_cover(const rays::SurfacePoint& point, float spacing, const SeesProbe& sees);
 struct SurfaceShare {
   std::uint32_t point;
