@@ -37,7 +37,7 @@ const mat4& world_of(const std::vector<mat4>& world, int node) {
 
 Lights::Lights(const scene::Scene& scene, float time, const std::vector<mat4>& world,
                const scene::Bounds& bounds, const RendererParams& params)
-    : near_(cube_near(bounds)) {
+    : near_(cube_near(bounds)), profiles_(scene.lights) {
   const std::vector<std::string> groups = scene::light_groups(scene);
   scales_.assign(groups.size(), vec3(1));
   groups_ = groups;
@@ -93,6 +93,7 @@ void Lights::add_lights(const scene::Scene& scene, float time, const std::vector
       const bool lobe = light.type == scene::LightType::sphl;
       e.items = ivec4(static_cast<int>(lobe ? EmitterKind::lobe : EmitterKind::point), lamp_slots_, 1, 0);
       source.first_map = lamp_slots_++;
+      e.count.y = profiles_.layer(light) + 1;
     }
     emitters_.push_back(e);
     sources_.push_back(std::move(source));
@@ -250,8 +251,9 @@ void Lights::place(Source& source, const mat4& world) {
   }
   const bool lobe = light.type == scene::LightType::sphl;
   e.place = vec4(vec3(world[3]), lobe ? light.radius : 0);
-  const mat3 axes = scene::emission_axes(world);
-  for (int i = 0; i < 3 && lobe; ++i) e.samples[i].place = vec4(axes[i], 0);
+  mat3 axes = scene::emission_axes(world);
+  if (light.has_profile()) axes = axes * scene::photometric_axes(light.profile.table->type);
+  for (int i = 0; i < 3 && (lobe || light.has_profile()); ++i) e.samples[i].place = vec4(axes[i], 0);
   const bool spot = light.type == scene::LightType::spot;
   if (spot) {
     const float cos_outer = std::cos(light.outer_cone);
@@ -381,6 +383,7 @@ void Lights::bind() const {
   lamps_.texture().bind(unit::light_maps);
   areas_.texture().bind(unit::area_maps);
   parallel_.texture().bind(unit::parallel_maps);
+  profiles_.bind();
   if (bounds_) bounds_->bind();
   if (!lamps_.glass().id()) return;
   lamps_.glass().bind(unit::light_glass);
@@ -389,7 +392,7 @@ void Lights::bind() const {
 }
 
 std::size_t Lights::bytes() const {
-  return lamps_.bytes() + areas_.bytes() + parallel_.bytes() + emitter_buffer_.size() +
+  return lamps_.bytes() + areas_.bytes() + parallel_.bytes() + profiles_.bytes() + emitter_buffer_.size() +
          (bounds_ ? bounds_->bytes() : 0) + distant_buffer_.size();
 }
 

@@ -9,6 +9,7 @@
 
 #include "depth_bounds.h"
 #include "emitter_samples.h"
+#include "lamp_profiles.h"
 #include "shadow_maps.h"
 #include "view_depths.h"
 
@@ -131,6 +132,7 @@ class Lights {
   int lamp_slots_ = 0, area_slots_ = 0, parallel_slots_ = 0, scene_emitters_ = 0;
   float near_;
   MapAtlas lamps_, areas_, parallel_;
+  LampProfiles profiles_;
   std::optional<DepthBounds> bounds_;  ///< of maps of suns with an extent
   gl::Buffer emitter_buffer_, distant_buffer_;
   bool emitters_changed_ = true, distant_changed_ = true;
