@@ -103,6 +103,35 @@ TEST_F(SetLamps, KeepsTimeEnvironmentAndGlowingProbes) {
   EXPECT_EQ(draw(changed, scene_).pixels, draw(after, scene_).pixels);
 }
 
+// Nobody asked for maps of what probes hold; once they are gone, they are drawn.
+TEST_F(SetLamps, DrawsTheMapsThatBakedGroupsDidNotNeed) {
+  probes::ProbeSet baked = made_up_probes(scene_);
+  baked.light_groups[0] = {scene::light_groups(scene_)[0], vec3(1), scene::LightMode::baked};
+  scene::Scene other = scene_;
+  other.lights[0].intensity *= 2;
+  Renderer changed = make(scene_), after = make(other);
+  changed.set_probes(baked);
+  draw(changed, scene_);
+  changed.set_lamps(other);
+  changed.clear_probes();
+  EXPECT_EQ(draw(changed, scene_).pixels, draw(after, scene_).pixels);
+}
+
+// A sky, and what stands still in it, are drawn once.
+TEST_F(SetLamps, KeepsTheMapsOfTheSky) {
+  Renderer renderer = make(scene_);
+  draw(renderer, scene_);
+  const int all = renderer.stats().shadow_maps_drawn;
+  draw(renderer, scene_);  // the sun's follow what the first one saw
+  scene::Scene other = scene_;
+  other.lights.push_back(other.lights[0]);
+  other.lights.back().type = scene::LightType::point;
+  renderer.set_lamps(other);
+  draw(renderer, scene_);
+  EXPECT_EQ(renderer.stats().shadow_maps_drawn, 12) << "the faces of the lamp and of the one before";
+  EXPECT_GT(all, 20);
+}
+
 TEST_F(SetLamps, UploadsLampsAlone) {
   scene::Scene large = scene_;
   // Five thousand triangles more

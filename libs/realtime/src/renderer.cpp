@@ -149,9 +149,10 @@ void Renderer::set_lamps(const scene::Scene& scene) {
   state.environment_image = d.lighting.environment_image;
   state.emission = d.lighting.emission;
   std::vector<mat4> world = scene::world_matrices(scene, state.time);
-  Lights lights(scene, state.time, world, d.scene.bounds(), d.params);
-  lights.set(state, world);
+  Lights lights(scene, state.time, world, d.scene.bounds(), d.params, &d.lights);
   d.context.throw_on_error("making lamps");
+  lights.take_from(d.lights, world);
+  lights.set(state, world);
   d.todo.clear(), d.next_piece = 0;
   d.lights = std::move(lights);
   d.posed = pose_only(scene);
