@@ -157,7 +157,7 @@ void App::apply_edits() {
   // While somebody drags a cone the renderer keeps the one of before, which lines show beside the new one.
   const bool shapes_alone = applied_.lamps_of->lights.size() == document.scene->lights.size() &&
                             scene::light_groups(*applied_.lamps_of) == scene::light_groups(*document.scene);
-  if (applied_.lamps_of != document.scene && !(shapes_alone && ImGui::IsAnyMouseDown())) renew_renderer();
+  if (applied_.lamps_of != document.scene && !(shapes_alone && ImGui::IsAnyMouseDown())) apply_lamps();
   // Also where lamps changed while the light was on its way; once, so that it can be cancelled.
   const std::pair asked(document.scene, light.live_light());
   if (light.live() && applied_.relit_for != asked && !has_lamps(light.live_light()->scene(), edits)) {
@@ -188,18 +188,13 @@ void App::apply_edits() {
   }
 }
 
-/// Lamps are built into renderers and transport. The picture has them at once, indirect light follows in the
-/// background.
-void App::renew_renderer() {
-  const Edits& edits = document.edits();
-  renderer_ = std::make_unique<realtime::Renderer>(*gl_, with_materials(*document.scene, edits),
-                                                   realtime::RendererParams{}, document.time);
+/// Transport is built for lamps. The picture has them at once, indirect light follows in the background.
+void App::apply_lamps() {
+  renderer_->set_lamps(with_materials(*document.scene, document.edits()));
   applied_.lamps_of = document.scene;
-  applied_.materials = edits.materials;
   screen_.drawing.reset();
   screen_.outline.reset();
   screen_.scene_dirty = true;
-  light.renderer_is_new();
 }
 
 void App::update_light() {

@@ -175,6 +175,10 @@ class App {
   void add_lamp(LightEdit lamp);
   /// Another lamp like the selected one beside it, which is selected then.
   void duplicate_lamp();
+  /// Gives a lamp a photometric profile, or takes it with an empty one; the selected one that of a file. Both
+  /// throw Error for lamps that can have none.
+  void set_lamp_profile(std::size_t lamp, const scene::LampProfile& profile);
+  void take_profile(const std::string& file);
   /// Whether the selected lamp shines in a direction.
   bool can_aim() const;
   /// Turns the selected lamp so that it shines at a point.
@@ -274,8 +278,8 @@ class App {
   LiveLightParams light_params() const;
   void update_time(double seconds);
   void apply_edits();
-  /// A renderer with the lamps that there are now; all that it had it is given again.
-  void renew_renderer();
+  /// The lamps that there are now, to the renderer.
+  void apply_lamps();
   void stop_stale_bake();
   void update_light();
   void finish_frame();

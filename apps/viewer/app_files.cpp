@@ -171,6 +171,8 @@ void App::ask_for_file(FileDialog::For what, const std::filesystem::path& in) {
               FileBrowser(folder, {".glb", ".gltf", ".obj", ".ssphh.json", ".sphl", ".sphl.json", ".json"}),
               {},
               {}};
+  } else if (what == profile) {
+    dialog = {what, FileBrowser(folder, {".ies", ".IES"}), {}, {}};
   } else if (what == scene) {
     const std::string name =
         document.file.empty() ? free_file(".glb") : fs::path(document.file).filename().string();
@@ -189,8 +191,14 @@ void App::choose_file() {
     asked.problem.clear();
     auto path = asked.browser.choose();
     if (!path) return asked.replaces.clear();
+    if (asked.reads() && !std::filesystem::exists(*path))
+      throw Error(path->string(), "there is no such file");
+    if (asked.what == profile) {
+      take_profile(path->string());
+      dialog.reset();
+      return;
+    }
     if (asked.what == open) {
-      if (!std::filesystem::exists(*path)) throw Error(path->string(), "there is no such file");
       request_open(path->string());
       mended_ = std::exchange(dialog, std::nullopt);
       return;

@@ -4,7 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/error.h>
+#include <ssphh/scene_io/ies.h>
+
 #include "app.h"
+#include "model/lamp_profile.h"
 #include "model/pick.h"
 
 namespace ssphh::viewer {
@@ -64,8 +68,26 @@ void App::delete_lamp() {
   say("deleted: " + name);
 }
 
+void App::set_lamp_profile(std::size_t lamp, const scene::LampProfile& profile) {
+  const std::string name = document.edits().lights[lamp].lamp.name;
+  const mat4 world = document.lighting().lights[lamp].world;
+  document.edit_at_once("profile of " + name, [&](Edits& e) { set_profile(e.lights[lamp], profile, world); });
+  say(profile.empty() ? name + " shines as before, without a profile"
+                      : fmt::format("{} shines as {}, up to {:g} cd there", name, profile.name,
+                                    scene::greatest_candela(*profile.table)));
+}
+
+void App::take_profile(const std::string& file) {
+  if (!selection.is(Kind::light))
+    throw Error(file, "is the photometric profile of a lamp, and no lamp is selected",
+                "select a point or spot lamp first");
+  set_lamp_profile(static_cast<std::size_t>(selection.index), scene_io::read_ies(file));
+}
+
 bool App::can_aim() const {
-  return selection.is(Kind::light) && has_direction(document.scene->lights[selection.index].type);
+  if (!selection.is(Kind::light)) return false;
+  const Lamp& lamp = document.edits().lights[selection.index].lamp;
+  return has_direction(lamp.type, lamp.profile);
 }
 
 std::optional<vec3> App::aim_origin() const {
@@ -78,7 +100,7 @@ void App::turn_selected(const vec3& direction) {
   const auto i = static_cast<std::size_t>(selection.index);
   const mat4 world = document.lighting().lights[i].world;
   document.edit("aim " + document.scene->lights[i].name,
-                [&](Edits& e) { e.lights[i].world = with_direction(world, direction); });
+                [&](Edits& e) { e.lights[i].world = aimed(e.lights[i].lamp, world, direction); });
   redraw();
 }
 

@@ -28,6 +28,10 @@ bool named_as_scene(const std::string& file) {
   return std::ranges::any_of(endings, [&](std::string_view ending) { return file.ends_with(ending); });
 }
 
+bool is_profile(const std::string& file) {
+  return file.ends_with(".ies") || file.ends_with(".IES");
+}
+
 std::string short_name(const std::string& source) {
   return source.starts_with("builtin:") ? source : fs::path(source).filename().string();
 }
@@ -164,11 +168,18 @@ void App::take_dropped(const std::vector<std::string>& files) {
       // What is in it can be chosen.
       return ask_for_file(FileDialog::For::open, file);
     }
-    (named_as_scene(file) || (files.size() == 1 && is_scene(file)) ? scenes : rest).push_back(file);
+    const bool alone = files.size() == 1 && is_scene(file) && !is_profile(file);
+    (named_as_scene(file) || alone ? scenes : rest).push_back(file);
   }
   std::vector<std::string> strange;
   for (const std::string& file : rest) {
-    if (is_scene(file)) {
+    if (is_profile(file)) {
+      try {
+        take_profile(file);
+      } catch (const std::exception& e) {
+        complain(e.what());
+      }
+    } else if (is_scene(file)) {
       strange.push_back(short_name(file));
     } else if (scenes.empty()) {
       try {
@@ -185,7 +196,8 @@ void App::take_dropped(const std::vector<std::string>& files) {
   } else if (!strange.empty()) {
     const std::size_t shown = std::min<std::size_t>(strange.size(), 3);
     complain(
-        fmt::format("{}{}: neither a scene (.glb, .gltf, .obj, .ssphh.json) nor probes nor a camera path",
+        fmt::format("{}{}: neither a scene (.glb, .gltf, .obj, .ssphh.json) nor probes nor a camera path nor "
+                    "a lamp's profile (.ies)",
                     fmt::join(strange.begin(), strange.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
                     strange.size() > shown ? fmt::format(" and {} more", strange.size() - shown) : ""));
   }

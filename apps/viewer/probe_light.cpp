@@ -74,12 +74,6 @@ void ProbeLight::clear() {
   unsaved_.clear();
 }
 
-void ProbeLight::renderer_is_new() {
-  places_new_ = surfaces_new_ = true;
-  by_records_ = false;
-  settings_.reset();
-}
-
 void ProbeLight::take_probe(std::size_t i, const probes::Probe& probe) {
   if (!set_ || i >= set_->probes.size()) return;
   set_->probes[i].groups = probe.groups;

@@ -51,9 +51,6 @@ class ProbeLight {
   /// How surfaces look it up, apart from the weights.
   probes::LookupParams lookup_params(const Settings& settings) const;
 
-  /// Another renderer takes the place of the one of before: the next update() gives it everything.
-  void renderer_is_new();
-
   struct Update {
     bool relit = false;     ///< light changed
     bool replaced = false;  ///< places changed

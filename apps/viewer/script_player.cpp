@@ -5,7 +5,10 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/scene_io/ies.h>
+
 #include "injection.h"
+#include "model/lamp_profile.h"
 #include "model/overlay_file.h"
 #include "model/sky_edit.h"
 
@@ -15,7 +18,9 @@ const char* const script_help =
     "set NAME VALUE | time T | camera NAME | view X Y Z TO_X TO_Y TO_Z | tab NAME | "
     "add-camera NAME | add-light point|spot|directional|sphere|sphl NAME X Y Z | light NAME delete | "
     "light NAME duplicate | light NAME aim X Y Z | light NAME on|off | light NAME color R G B | "
-    "light NAME position X Y Z | light NAME intensity V (radius, range, outer-cone, inner-cone, diameter) | "
+    "light NAME profile FILE|none | light NAME turn DEGREES | light NAME position X Y Z | light NAME "
+    "intensity V (radius, range, "
+    "outer-cone, inner-cone, diameter) | "
     "group NAME FACTOR | environment DEGREES | sun ELEVATION AZIMUTH | time-of-day HH:MM | material NAME R G "
     "B | select light|sphl|material|object NAME "
     "| sphl "
@@ -70,6 +75,14 @@ void edit_light(App& app, const ScriptLine& line) {
   } else if (what == "color") {
     expect_words(line, 5, "light NAME color R G B");
     edit([&](LightEdit& light) { light.color = glm::max(vector(line, 3), vec3(0)); });
+  } else if (what == "profile") {
+    expect_words(line, 3, "light NAME profile FILE|none");
+    const std::string& file = line.words[3];
+    app.set_lamp_profile(i, file == "none" ? scene::LampProfile{} : scene_io::read_ies(file));
+  } else if (what == "turn") {
+    expect_words(line, 3, "light NAME turn DEGREES");
+    const float turn = glm::radians(number(line, 3));
+    edit([&](LightEdit& light) { light.world = with_turn(world, turn); });
   } else if (what == "position") {
     expect_words(line, 5, "light NAME position X Y Z");
     edit([&](LightEdit& light) { light.world = with_position(world, vector(line, 3)); });
@@ -77,7 +90,8 @@ void edit_light(App& app, const ScriptLine& line) {
     // Numbers, by their names in the panel
     std::string name = what;
     std::ranges::replace(name, '-', ' ');
-    std::vector<std::string> known = {"on", "off", "delete", "duplicate", "aim", "color", "position"};
+    std::vector<std::string> known = {"on",    "off",     "delete", "duplicate", "aim",
+                                      "color", "profile", "turn",   "position"};
     for (const LampNumber& n : lamp_numbers(app.document.edits().lights[i])) known.emplace_back(n.name);
     if (std::ranges::find(known, name) == known.end()) throw Error(line.where, none_of(what, known));
     expect_words(line, 3, "light NAME intensity V");

@@ -77,6 +77,13 @@ class SceneDraw {
     l.radius = number(0.1f, 0.4f), l.angular_radius = number(0.01f, 0.1f);
     l.inner_cone = number(0.1f, 0.3f), l.outer_cone = number(0.4f, 1);
     l.range = number(3, 30);
+    if (coin()) {
+      l.profile = {"profile", std::make_shared<const scene::PhotometricTable>(
+                                  scene::PhotometricTable{scene::Photometry::c,
+                                                          {0, number(10, 80), 180},
+                                                          {0},
+                                                          {number(1, 9), number(1, 9), number(1, 9)}})};
+    }
     return l;
   }
   scene::AnimationChannel channel(int node, scene::AnimationPath path) {

@@ -143,7 +143,7 @@ class SceneFields {
 
   void members(const std::string& at, scene::Light& light) {
     auto& [name, group, node, type, color, intensity, radius, emission, angular_radius, inner_cone,
-           outer_cone, range] = light;
+           outer_cone, range, profile] = light;
     auto& [frames, rate, start, repeat] = emission;
     visit_(at + "name", name);
     visit_(at + "group", group);
@@ -161,6 +161,15 @@ class SceneFields {
     visit_(at + "emission.rate", rate);
     visit_(at + "emission.start", start);
     visit_(at + "emission.repeat", repeat);
+    visit_(at + "profile.name", profile.name);
+    if (profile.empty()) return;
+    scene::PhotometricTable table = *profile.table;
+    auto& [photometry, polar, turn, candela] = table;
+    visit_(at + "profile.type", photometry);
+    visit_(at + "profile.polar", polar);
+    visit_(at + "profile.turn", turn);
+    visit_(at + "profile.candela", candela);
+    profile.table = std::make_shared<const scene::PhotometricTable>(table);
   }
 
   void members(const std::string& at, scene::Sphl& sphl) {

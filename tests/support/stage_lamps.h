@@ -51,6 +51,42 @@ inline std::vector<StageLamp> lamps_without_extent() {
   lobe.emission.frames = {sh::IntensitySh(1)};
   lobe.emission.frames[0].values = {vec3(0.75f * 3.5449077f), vec3(0), vec3(0.5f / 0.4886025f),
                                     sideways / 0.4886025f};
+  // I = f(θ) + h(θ) g(φ) from the aim and about it, all linear between the angles of the table
+  const auto line = [](float x, std::initializer_list<vec2> knots) {
+    vec2 last = *knots.begin();
+    for (const vec2& next : knots) {
+      if (x <= next.x && next.x > last.x)
+        return glm::mix(last.y, next.y, glm::clamp((x - last.x) / (next.x - last.x), 0.0f, 1.0f));
+      last = next;
+    }
+    return last.y;
+  };
+  const auto share = [=](float polar, float turn) {
+    return line(polar, {{0, 0.8f}, {40, 0.6f}, {90, 0.1f}, {120, 0}, {180, 0}}) +
+           line(polar, {{0, 0}, {40, 0.4f}, {90, 0.1f}, {120, 0}, {180, 0}}) *
+               line(turn, {{0, 1}, {90, 0}, {180, 0.5f}, {270, 0.25f}, {360, 1}});
+  };
+  scene::PhotometricTable measured;
+  measured.polar = {0, 40, 90, 120, 180}, measured.turn = {0, 90, 180, 270, 360};
+  for (const float turn : measured.turn)
+    for (const float polar : measured.polar) measured.candela.push_back(130 * share(polar, turn));
+  scene::Light profiled = point, profiled_spot = spot, flood = point;
+  profiled.profile = {"c", std::make_shared<const scene::PhotometricTable>(measured)};
+  profiled_spot.profile = profiled.profile;
+  // H degrees right of the aim in planes V degrees above it: 1 − |H|/100 − |V|/160
+  scene::PhotometricTable aimed{scene::Photometry::b, {40, 90, 140}, {-70, 0, 70}, {}};
+  for (const float v : aimed.turn)
+    for (const float polar : aimed.polar)
+      aimed.candela.push_back(1 - std::abs(polar - 90) / 100 - std::abs(v) / 160);
+  flood.profile = {"b", std::make_shared<const scene::PhotometricTable>(aimed)};
+  const auto in_axes = [](const vec3& wi) {  // of the lamp, away from it
+    return -wi * glm::mat3_cast(glm::quatLookAt(stage_lamp_axis, vec3(0, 1, 0)));
+  };
+  const auto through_profile = [=](const vec3& wi) {
+    const vec3 d = in_axes(wi);
+    const float turn = glm::degrees(std::atan2(d.y, d.x));
+    return share(glm::degrees(std::acos(-d.z)), turn < 0 ? turn + 360 : turn);
+  };
   return {{"Point", point, [=](const vec3& x) { return toward(x, 20.0f * colour); }},
           {"Spot", spot,
            [=](const vec3& x) {
@@ -60,6 +96,31 @@ inline std::vector<StageLamp> lamps_without_extent() {
                          inner = std::cos(0.3f);
              const float cone = glm::clamp((cosine - outer) / (inner - outer), 0.0f, 1.0f);
              a.irradiance *= cone * cone * glm::clamp(1 - std::pow(a.distance / 9, 4.0f), 0.0f, 1.0f);
+             return a;
+           }},
+          {"Profile", profiled,
+           [=](const vec3& x) {
+             Arriving a = toward(x, 20.0f * colour);
+             a.irradiance *= through_profile(a.wi);
+             return a;
+           }},
+          {"ProfileOfASpot", profiled_spot,
+           [=](const vec3& x) {
+             Arriving a = toward(x, 20.0f * colour);
+             const float cosine = -glm::dot(a.wi, stage_lamp_axis), outer = std::cos(0.7f),
+                         inner = std::cos(0.3f);
+             const float cone = glm::clamp((cosine - outer) / (inner - outer), 0.0f, 1.0f);
+             a.irradiance *= cone * cone * glm::clamp(1 - std::pow(a.distance / 9, 4.0f), 0.0f, 1.0f) *
+                             through_profile(a.wi);
+             return a;
+           }},
+          {"Floodlight", flood,
+           [=](const vec3& x) {
+             Arriving a = toward(x, 20.0f * colour);
+             const vec3 d = in_axes(a.wi);
+             const float right = std::abs(glm::degrees(std::asin(d.x))),
+                         above = std::abs(glm::degrees(std::atan2(d.y, -d.z)));
+             a.irradiance *= right > 50 || above > 70 ? 0 : 1 - right / 100 - above / 160;
              return a;
            }},
           {"Sphl", lobe,

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "lamp_profile.h"
+
 namespace ssphh::viewer {
 namespace {
 
@@ -44,7 +46,7 @@ std::vector<vec3> circle(const vec3& middle, const vec3& axis, float radius) {
 
 Lamp lamp_of(const scene::Light& light) {
   return {light.name,           light.group,      light.type,       light.radius, light.emission,
-          light.angular_radius, light.inner_cone, light.outer_cone, light.range};
+          light.angular_radius, light.inner_cone, light.outer_cone, light.range,  light.profile};
 }
 
 scene::Light light_of(const Lamp& lamp, const vec3& color, float intensity) {
@@ -53,6 +55,7 @@ scene::Light light_of(const Lamp& lamp, const vec3& color, float intensity) {
   light.color = color, light.intensity = intensity;
   light.radius = lamp.radius, light.emission = lamp.emission, light.angular_radius = lamp.angular_radius;
   light.inner_cone = lamp.inner_cone, light.outer_cone = lamp.outer_cone, light.range = lamp.range;
+  light.profile = lamp.profile;
   return light;
 }
 
@@ -147,7 +150,8 @@ mat4 with_direction(const mat4& world, const vec3& direction) {
   return {vec4(frame.x, 0), vec4(frame.y, 0), vec4(frame.z, 0), world[3]};
 }
 
-bool has_direction(scene::LightType type) {
+bool has_direction(scene::LightType type, const scene::LampProfile& profile) {
+  if (type == point) return !profile.empty();
   return type == spot || type == directional || type == sphl;
 }
 
@@ -158,7 +162,7 @@ bool has_place(scene::LightType type) {
 std::vector<std::vector<vec3>> lamp_lines(const Lamp& lamp, const mat4& world, float length) {
   const vec3 at = light_position(world), along = light_direction(world);
   std::vector<std::vector<vec3>> lines;
-  if (has_direction(lamp.type)) lines.push_back({at, at + length * along});
+  if (has_direction(lamp.type, lamp.profile)) lines.push_back({at, at + length * along});
   if (lamp.type == spot) {
     for (const float cone : {lamp.outer_cone, lamp.inner_cone}) {
       if (cone <= 0) continue;
@@ -166,6 +170,13 @@ std::vector<std::vector<vec3>> lamp_lines(const Lamp& lamp, const mat4& world, f
       lines.push_back(circle(at + length * std::cos(cone) * along, along, length * std::sin(cone)));
     }
     for (const std::size_t i : {0u, 12u, 24u, 36u}) lines.push_back({at, lines[1][i]});
+  }
+  if (!lamp.profile.empty()) {
+    const mat3 axes = scene::emission_axes(world);
+    for (const float turn : {0.0f, pi / 2}) {
+      std::vector<vec3>& line = lines.emplace_back(profile_curve(lamp.profile, turn));
+      for (vec3& p : line) p = at + length * (axes * p);
+    }
   }
   const auto ball = [&](float radius) {
     for (const vec3& axis : {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1)})

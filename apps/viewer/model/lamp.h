@@ -17,6 +17,7 @@ struct Lamp {
   float angular_radius = 0;
   float inner_cone = 0, outer_cone = pi / 4;
   float range = 0;
+  scene::LampProfile profile{};
 
   friend bool operator==(const Lamp&, const Lamp&) = default;
 };
@@ -61,12 +62,12 @@ vec3 light_direction(const mat4& world);
 mat4 with_position(const mat4& world, const vec3& position);
 mat4 with_direction(const mat4& world, const vec3& direction);
 
-/// Whether lamps of the type shine in a direction, and stand at a place.
-bool has_direction(scene::LightType type);
+/// Whether lamps of the type, and of that profile, shine in a direction, and stand at a place.
+bool has_direction(scene::LightType type, const scene::LampProfile& profile = {});
 bool has_place(scene::LightType type);
 
 /// Lines in space that show a lamp's shape: the rims of a spot's cones and lines to them, a sphere's outline,
-/// how far the light reaches. `length`: of what has none of its own [m].
+/// how far the light reaches, polar curves of a profile. `length`: of what has none of its own [m].
 std::vector<std::vector<vec3>> lamp_lines(const Lamp& lamp, const mat4& world, float length);
 
 }  // namespace ssphh::viewer

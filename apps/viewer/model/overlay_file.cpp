@@ -8,6 +8,7 @@
 
 #include <ssphh/core/file.h>
 #include <ssphh/scene/calendar.h>
+#include <ssphh/scene_io/ies.h>
 #include <ssphh/scene_io/load.h>
 #include <ssphh/scene_io/overlay.h>
 
@@ -111,7 +112,7 @@ void add_lights(json::Value& overlay, const Document& document, bool sun_of_sky)
     using enum scene::LightType;
     json::Value entry = {{"name", lamp.name}, {"type", std::string(name_of(lamp.type))}};
     if (!lamp.group.empty()) entry["light_group"] = lamp.group;
-    const bool turned = has_direction(lamp.type);
+    const bool turned = has_direction(lamp.type, lamp.profile);
     if (moved(i) || !hang_on(entry, own, own.lights[edits[i].source].node, turned))
       place(entry, states[i].world, turned);
     entry["color"] = vector(states[i].color);
@@ -124,6 +125,10 @@ void add_lights(json::Value& overlay, const Document& document, bool sun_of_sky)
       entry["inner_cone_degrees"] = degrees(std::min(lamp.inner_cone, lamp.outer_cone));
     }
     if (lamp.range > 0) entry["range"] = number(lamp.range);
+    if (!lamp.profile.empty()) {
+      entry["profile"]["ies"] = scene_io::ies_to_text(lamp.profile);
+      entry["profile"]["name"] = lamp.profile.name;
+    }
     return entry;
   });
 }

@@ -21,6 +21,7 @@ bool pressed(std::initializer_list<int> keys) {
 
 const char* title_of(FileDialog::For what) {
   using enum FileDialog::For;
+  if (what == profile) return "Photometric profile of the lamp";
   return what == open ? "Open" : what == scene ? "Save the scene as" : "Save the probes as";
 }
 
@@ -105,7 +106,7 @@ void draw_file_dialog(App& app) {
   ImGui::TextWrapped("%s", browser.folder().c_str());
 
   // Where nothing is typed there is nothing to take back but the way here; not while the key is held.
-  const bool opens = dialog.what == FileDialog::For::open;
+  const bool opens = dialog.reads();
   if (opens && browser.typed().empty() && ImGui::IsKeyPressed(GLFW_KEY_BACKSPACE, false)) browser.up();
   const bool moved = move_by_keys(browser);
   const std::string typed = browser.typed();

@@ -9,6 +9,7 @@
 
 #include "app.h"
 #include "model/lamp_color.h"
+#include "model/lamp_profile.h"
 #include "panels.h"
 #include "widgets.h"
 
@@ -88,6 +89,54 @@ void draw_numbers(App& app, std::size_t i) {
   }
 }
 
+/// Polar curves of a profile, its aim pointing down: the plane of the lamp's x axis, and thinner that of its
+/// y.
+void draw_curves(const scene::LampProfile& profile) {
+  const float em = ImGui::GetFontSize(), side = std::min(11 * em, ImGui::GetContentRegionAvail().x);
+  const ImVec2 from = ImGui::GetCursorScreenPos();
+  ImGui::Dummy({side, side});
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 middle{from.x + 0.5f * side, from.y + 0.5f * side};
+  const float radius = 0.48f * side;
+  const ImU32 grid = ImGui::GetColorU32(ImGuiCol_TextDisabled, 0.5f);
+  for (const float share : {0.5f, 1.0f}) list.AddCircle(middle, share * radius, grid, 48);
+  list.AddLine({middle.x - radius, middle.y}, {middle.x + radius, middle.y}, grid);
+  list.AddLine({middle.x, middle.y - radius}, {middle.x, middle.y + radius}, grid);
+  const auto draw = [&](float turn, ImU32 color, float thickness) {
+    std::vector<ImVec2> line;
+    for (const vec3& p : profile_curve(profile, turn))
+      line.push_back({middle.x + radius * (turn == 0 ? p.x : p.y), middle.y - radius * p.z});
+    list.AddPolyline(line.data(), static_cast<int>(line.size()), color, 0, thickness);
+  };
+  draw(pi / 2, ImGui::GetColorU32(ImGuiCol_Text, 0.5f), 1);
+  draw(0, ImGui::GetColorU32(ImGuiCol_PlotLinesHovered), 2);
+}
+
+void draw_profile(App& app, std::size_t i) {
+  const LightEdit now = app.document.edits().lights[i];
+  const scene::LampProfile& profile = now.lamp.profile;
+  row("profile");
+  const std::string label = (profile.empty()        ? "choose .ies…"
+                             : profile.name.empty() ? "(unnamed)"
+                                                    : profile.name) +
+                            "##profile";
+  if (ImGui::Button(label.c_str())) app.ask_for_file(FileDialog::For::profile);
+  tip("a photometric file (IES LM-63) of the luminaire, scaled to the lamp's intensity; one that is dropped "
+      "on the "
+      "window does the same");
+  if (profile.empty()) return;
+  draw_curves(profile);
+  tip("intensity by direction, the aim pointing down: bright in the plane of the lamp's x axis, grey across");
+  const float candela = scene::greatest_candela(*profile.table);
+  if (ImGui::SmallButton(fmt::format("as measured: {:g} cd", candela).c_str()))
+    app.document.edit_at_once("intensity of " + now.lamp.name,
+                              [&](Edits& e) { e.lights[i].intensity = candela; });
+  tip("the file's own intensity in its brightest direction, a candela read as 1 W/sr");
+  beside("without");
+  if (ImGui::SmallButton("without")) attempt(app, [&] { app.set_lamp_profile(i, {}); });
+  tip("shines alike in all directions again");
+}
+
 }  // namespace
 
 void draw_lamp(App& app) {
@@ -100,6 +149,8 @@ void draw_lamp(App& app) {
 
   draw_name(app, i);
   draw_numbers(app, i);
+
+  if (light.type == scene::LightType::point || light.type == scene::LightType::spot) draw_profile(app, i);
 
   row("colour");
   vec3 color = now.color;
@@ -117,13 +168,25 @@ void draw_lamp(App& app) {
       app.edit("move " + light.name, [&](Edits& e) { e.lights[i].world = with_position(world, position); });
     seal_after_edit(app);
   }
-  if (has_direction(light.type)) {
+  if (has_direction(light.type, light.profile)) {
     row("direction");
     vec3 direction = light_direction(world);
     if (ImGui::DragFloat3("##direction", glm::value_ptr(direction), 0.01f, -1, 1, "%.2f") &&
         glm::length(direction) > 1e-3f)
-      app.edit("turn " + light.name, [&](Edits& e) { e.lights[i].world = with_direction(world, direction); });
+      app.edit("turn " + light.name,
+               [&](Edits& e) { e.lights[i].world = aimed(now.lamp, world, direction); });
     seal_after_edit(app);
+    if (!light.profile.empty()) {
+      row("turn");
+      const float before = glm::degrees(turn_of(world));
+      float turn = before;
+      ImGui::DragFloat("##turn", &turn, 0.5f, -180, 180, "%.1f°", ImGuiSliderFlags_AlwaysClamp);
+      if (turn != before)
+        app.edit("turn " + light.name,
+                 [&](Edits& e) { e.lights[i].world = with_turn(world, glm::radians(turn)); });
+      seal_after_edit(app);
+      tip("of the profile about its aim, counter-clockwise seen from behind the lamp");
+    }
     if (ImGui::Button(app.aim_mode ? "click a surface …" : "Aim (X)")) app.aim_mode = !app.aim_mode;
     tip(has_place(light.type) ? "at what you click next; the amber handle in the picture aims, too"
                               : "at the place of the sky that you click next, or straight on a surface");

@@ -41,8 +41,9 @@ class OverlayFile : public testing::Test {
       const mat4 at = scene::world_matrix(a, light.node, 0.4f),
                  there = scene::world_matrix(b, found->node, 0.4f);
       EXPECT_EQ(light_position(at), light_position(there));
-      if (has_direction(light.type)) {
+      if (has_direction(light.type, light.profile)) {
         EXPECT_LT(glm::distance(light_direction(at), light_direction(there)), 1e-6f);
+        EXPECT_LT(glm::distance(glm::normalize(vec3(at[0])), glm::normalize(vec3(there[0]))), 1e-5f);
       }
     }
     const auto places = [](const scene::Scene& scene) {
@@ -75,6 +76,10 @@ TEST_F(OverlayFile, LampsOfAllKindsComeBackTheSame) {
     set_lamp_number(e.lights[1], "range", 7.3f);
     set_lamp_number(e.lights[2], "outer cone", 23.4f);
     e.lights[4].on = false;
+    const scene::LampProfile profile{
+        "a \"lamp\"", std::make_shared<const scene::PhotometricTable>(scene::PhotometricTable{
+                          scene::Photometry::c, {0, 30.3f, 90}, {0, 90, 360}, {9, 4, 1, 9, 5, 0, 9, 4, 1}})};
+    e.lights[1].lamp.profile = e.lights[2].lamp.profile = profile;
     e.lights[0].world = with_position(mat4(1), {-2, 2.2f, 0.1f});
     e.sphls.erase(e.sphls.begin() + 1);
     e.sphls.push_back({-1, vec3(1, 1.5f, 0.5f), "added", 0.2f, true});

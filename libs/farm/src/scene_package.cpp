@@ -42,6 +42,11 @@ class Writer {
     if (value) (*this)(*value);
   }
   template <class T>
+  void operator()(const std::shared_ptr<const T>& value) {
+    (*this)(value != nullptr);
+    if (value) (*this)(*value);
+  }
+  template <class T>
   void operator()(const std::vector<T>& items) {
     if constexpr (is_plain<T>) {
       array(std::as_bytes(std::span(items)));
@@ -98,6 +103,12 @@ class Reader {
     bool there = false;
     (*this)(there);
     if (there) (*this)(value.emplace());
+  }
+  template <class T>
+  void operator()(std::shared_ptr<const T>& value) {
+    std::optional<T> read;
+    (*this)(read);
+    if (read) value = std::make_shared<const T>(std::move(*read));
   }
   template <class T>
   void operator()(std::vector<T>& items) {

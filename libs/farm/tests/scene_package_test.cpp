@@ -62,6 +62,19 @@ TEST(ScenePackage, FieldsThatNoBuiltinSceneHasComeBack) {
   expect_same(scene);
 }
 
+TEST(ScenePackage, ProfilesOfLampsComeBackAndBrokenOnesAreRefused) {
+  scene::Scene scene = scene::make_builtin("gallery1");
+  scene::PhotometricTable table{scene::Photometry::b, {45, 90, 135}, {-30, 60}, {1, 2, 3, 4, 5, 6}};
+  scene.lights[0].profile = {"flood.ies", std::make_shared<const scene::PhotometricTable>(table)};
+  scene::validate(scene);
+  EXPECT_EQ(unpacked(pack_scene(scene)).lights[0].profile, scene.lights[0].profile);
+  expect_same(scene);
+  table.candela[3] = -1;
+  scene.lights[0].profile.table = std::make_shared<const scene::PhotometricTable>(table);
+  EXPECT_NE(message_of([&] { unpacked(pack_scene(scene)); }).find("an intensity of -1 cd"),
+            std::string::npos);
+}
+
 TEST(ScenePackage, RealScenesComeBackBitByBit) {
   SSPHH_SHARED_SCENE(sponza, "sponza/sponza.glb");
   expect_same(scene_io::load_scene(sponza.string()));

@@ -76,6 +76,9 @@ void main() {
   e *= max(intensity, vec3(0));
 #else
   vec3 e = emitter.light.rgb * (falloff(wi, d2) / d2 * cosine);
+#ifdef POINT
+  e *= profile_share(-wi);
+#endif
 #endif
 #ifdef SPHL
   vec3 leaving = vec3(0);

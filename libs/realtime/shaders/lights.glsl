@@ -14,8 +14,8 @@ layout(std140, binding = BINDING_EMITTER_BLOCK) uniform EmitterBlock {
   vec4 cone;   // a spot's axis; w: scale, 0 none
   vec4 more;   // cone offset, or sine of the radius of a disc's parts; both sides emit (mesh); area [m2]
   ivec4 items; // kind; map or first map; samples; probe of an SPHL, or log2 of tiles in a row (bounds of a disc's maps)
-  ivec4 count; // triangles with a closed form, or levels of the bounds of a disc's maps
-  AreaSample samples[MAX_SAMPLES];  // places of the first three: axes of a lobe
+  ivec4 count; // triangles with a closed form, or levels of the bounds of a disc's maps; 1 + layer of a lamp's profile, 0 none
+  AreaSample samples[MAX_SAMPLES];  // places of the first three: axes of a lobe or profile
   // Of triangles; coefficients of an SPHL's light; cascades of a disc's parts: centre across the light [m], 1 / half
   // width, tile
   vec4 corners[MAX_CORNERS];
@@ -49,6 +49,20 @@ float falloff(vec3 wi, float distance2) {
   }
   return f;
 }
+
+#ifdef POINT
+layout(binding = UNIT_LAMP_PROFILES) uniform sampler2DArray lamp_profiles;
+// Share of the lamp's intensity that its photometric profile sends away from it: evenly by the angle from the pole and
+// the one about it, from edge texel to edge texel.
+float profile_share(vec3 away) {
+  if (emitter.count.y == 0) return 1;
+  vec3 d = vec3(dot(emitter.samples[0].place.xyz, away), dot(emitter.samples[1].place.xyz, away),
+                dot(emitter.samples[2].place.xyz, away));
+  vec2 angles = vec2(atan(length(d.xy), d.z) / PI, fract(atan(d.y, d.x) / (2 * PI)));
+  vec2 size = vec2(textureSize(lamp_profiles, 0).xy);
+  return texture(lamp_profiles, vec3((angles * (size - 1) + 0.5) / size, emitter.count.y - 1)).r;
+}
+#endif
 
 // Between -1 and 1 across the map.
 vec2 place_on(SunMap map, vec3 x) {

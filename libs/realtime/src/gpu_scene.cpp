@@ -83,18 +83,13 @@ GpuScene::GpuScene(const scene::Scene& scene, std::span<const MeshBuffers> engin
     upload_block(counters, material_buffer_, materials_[m], m);
   add_textures(scene, counters);
 
-  // Groups
-  const std::vector<std::string> groups = scene::light_groups(scene);
-
-  // Instances
+  groups_ = groups_of(scene);
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const scene::Instance& instance = scene.instances[i];
     GpuInstance gpu;
     const int material = scene::instance_material(scene, instance);
     const bool none = material < 0;
     const auto m = none ? materials_.size() - 1 : static_cast<std::size_t>(material);
-    const bool emissive = !none && scene.materials[m].emissive();
-    groups_.push_back(emissive ? scene::light_group_index(groups, scene::light_group(scene, instance)) : -1);
     const bool moves = instance.node >= 0 && scene.nodes[instance.node].movable;
     gpu.emission_scale.w = moves ? 2 : 0;
     instances_.push_back(gpu);
@@ -194,6 +189,32 @@ void GpuScene::set_material(int index, const scene::Material& material, FrameCou
 void GpuScene::set_group_scale(int group, const vec3& scale, FrameCounters& counters) {
   for (std::size_t i = 0; i < instances_.size(); ++i) {
     if (groups_[i] != group) continue;
+    instances_[i].emission_scale = vec4(scale, instances_[i].emission_scale.w);
+    upload_block(counters, instance_buffer_, instances_[i], i);
+  }
+}
+
+std::vector<int> GpuScene::groups_of(const scene::Scene& scene) {
+  const std::vector<std::string> names = scene::light_groups(scene);
+  std::vector<int> groups;
+  for (const scene::Instance& instance : scene.instances) {
+    const int material = scene::instance_material(scene, instance);
+    const bool emissive = material >= 0 && scene.materials[material].emissive();
+    groups.push_back(emissive ? scene::light_group_index(names, scene::light_group(scene, instance)) : -1);
+  }
+  return groups;
+}
+
+bool GpuScene::stands_in(const scene::Scene& scene) const {
+  return std::ranges::equal(scene.instances, nodes_, {}, &scene::Instance::node);
+}
+
+void GpuScene::set_groups(const scene::Scene& scene, const std::vector<vec3>& scales,
+                          FrameCounters& counters) {
+  groups_ = groups_of(scene);
+  for (std::size_t i = 0; i < instances_.size(); ++i) {
+    const vec3 scale = groups_[i] < 0 ? vec3(1) : scales[groups_[i]];
+    if (vec3(instances_[i].emission_scale) == scale) continue;
     instances_[i].emission_scale = vec4(scale, instances_[i].emission_scale.w);
     upload_block(counters, instance_buffer_, instances_[i], i);
   }

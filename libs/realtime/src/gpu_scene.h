@@ -43,6 +43,10 @@ class GpuScene {
   void pose(const std::vector<mat4>& world, std::vector<scene::Bounds>& moved, FrameCounters& counters);
   void set_material(int index, const scene::Material& material, FrameCounters& counters);
   void set_group_scale(int group, const vec3& scale, FrameCounters& counters);
+  /// Instances as `scene` numbers their light groups, each with its factor of `scales`.
+  void set_groups(const scene::Scene& scene, const std::vector<vec3>& scales, FrameCounters& counters);
+  /// Whether its instances stand at the same nodes of `scene`.
+  bool stands_in(const scene::Scene& scene) const;
 
   const std::vector<DrawItem>& items() const { return items_; }
   const scene::Bounds& bounds() const { return bounds_; }
@@ -59,6 +63,8 @@ class GpuScene {
 
  private:
   enum class GlassKind { none, some, everywhere };
+  /// Of what each instance emits; −1: nothing.
+  static std::vector<int> groups_of(const scene::Scene& scene);
   static GlassKind glass_kind(const scene::Material& material);
   struct Slot {
     unsigned unit;

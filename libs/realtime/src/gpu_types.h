@@ -123,7 +123,7 @@ inline constexpr unsigned gbuffer0 = 0, gbuffer1 = 1, albedo_table = 3, light_ma
 inline constexpr unsigned base_texture = 8, rough_texture = 9, emission_texture = 10, normal_texture = 11,
                           transmission_texture = 12;
 inline constexpr unsigned irradiance = 8, glossy = 9, cells = 10, shadow_image = 8, occlusion = 2;
-inline constexpr unsigned light_glass = 8, area_glass = 9, parallel_glass = 10;
+inline constexpr unsigned light_glass = 8, area_glass = 9, parallel_glass = 10, lamp_profiles = 11;
 inline constexpr unsigned fitted_ranges = 8, fitted_lists = 9, fitted_light = 10, fitted_points = 11;
 inline constexpr unsigned irradiance_tiles = 12, radiance_tiles = 13, environment = 13,
                           environment_tiles = 12, probe_cells = 14, depth_bounds = 15;

@@ -28,47 +28,42 @@ float mesh_area(const scene::Mesh& mesh, const mat4& world) {
   return area;
 }
 
-const mat4& world_of(const std::vector<mat4>& world, int node) {
-  static const mat4 identity(1);
-  return node >= 0 ? world[node] : identity;
-}
-
 }  // namespace
 
 Lights::Lights(const scene::Scene& scene, float time, const std::vector<mat4>& world,
-               const scene::Bounds& bounds, const RendererParams& params)
-    : near_(cube_near(bounds)) {
+               const scene::Bounds& bounds, const RendererParams& params, const Lights* before)
+    : bounds_of_scene_(bounds), near_(cube_near(bounds)), profiles_(scene.lights) {
   const std::vector<std::string> groups = scene::light_groups(scene);
   scales_.assign(groups.size(), vec3(1));
   groups_ = groups;
   add_lights(scene, time, world, groups, most_sun_parts(scene, params));
   add_meshes(scene, world, groups, std::clamp(params.area_samples, 1, max_area_samples));
-  add_environment(scene, groups, std::clamp(params.environment_samples, 1, max_area_samples));
+  add_environment(scene, groups, std::clamp(params.environment_samples, 1, max_area_samples), before);
   if (parallel_slots_ > max_parallel_maps)
     throw Error("real-time renderer", fmt::format("the lights need {} parallel shadow maps, {} is the most",
                                                   parallel_slots_, max_parallel_maps));
-  lamps_ = MapAtlas(params.light_map_size, std::max(6 * lamp_slots_, 1));
-  areas_ = MapAtlas(params.area_map_size, std::max(6 * area_slots_, 1));
-  parallel_ = MapAtlas(params.sun_map_size, std::max(parallel_slots_, 1));
-  int bounded = 0;
   for (const GpuEmitter& e : emitters_) {
-    if (e.items.x == static_cast<int>(EmitterKind::disc)) bounded = e.items.y + sun_cascades * e.items.z;
+    if (e.items.x == static_cast<int>(EmitterKind::disc)) bounded_ = e.items.y + sun_cascades * e.items.z;
   }
-  if (bounded > 0) bounds_.emplace(params.sun_map_size, bounded);
+  if (!before || !same_lamp_maps(*before))
+    lamps_ = MapAtlas(params.light_map_size, std::max(6 * lamp_slots_, 1));
+  if (!before || !same_area_maps(*before))
+    areas_ = MapAtlas(params.area_map_size, std::max(6 * area_slots_, 1));
+  if (!before || !same_parallel_maps(*before)) {
+    parallel_ = MapAtlas(params.sun_map_size, std::max(parallel_slots_, 1));
+    if (bounded_ > 0) bounds_.emplace(params.sun_map_size, bounded_);
+  }
   parallel_key_.resize(static_cast<std::size_t>(parallel_slots_));
   scene_emitters_ = static_cast<int>(emitters_.size());
   distant_buffer_ = gl::Buffer(sizeof(DistantBlock));
-  for (Source& source : sources_) {
-    place(source, source.light >= 0 ? states_[source.light].world : world_of(world, source.node));
-  }
-  place_environment(bounds);
+  if (!before) place_all(world);
 }
 
 void Lights::add_lights(const scene::Scene& scene, float time, const std::vector<mat4>& world,
                         const std::vector<std::string>& groups, int most_parts) {
   for (const scene::Light& light : scene.lights) {
     lights_.push_back(light);
-    states_.push_back({world_of(world, light.node), light.color, light.intensity,
+    states_.push_back({node_matrix(world, light.node), light.color, light.intensity,
                        scene::emission_at(light.emission, time)});
     Source source;
     source.emitter = static_cast<int>(emitters_.size());
@@ -93,6 +88,7 @@ void Lights::add_lights(const scene::Scene& scene, float time, const std::vector
       const bool lobe = light.type == scene::LightType::sphl;
       e.items = ivec4(static_cast<int>(lobe ? EmitterKind::lobe : EmitterKind::point), lamp_slots_, 1, 0);
       source.first_map = lamp_slots_++;
+      e.count.y = profiles_.layer(light) + 1;
     }
     emitters_.push_back(e);
     sources_.push_back(std::move(source));
@@ -107,7 +103,7 @@ void Lights::add_meshes(const scene::Scene& scene, const std::vector<mat4>& worl
     const scene::Material& m = scene.materials[material];
     if (m.unlit || !(max_component(m.emission) > black)) continue;
     const scene::Mesh& mesh = scene.meshes[instance.mesh];
-    const mat4& placed = world_of(world, instance.node);
+    const mat4& placed = node_matrix(world, instance.node);
     Source source;
     source.points = spread_points(mesh, placed, samples);
     if (source.points.empty()) continue;
@@ -133,14 +129,19 @@ void Lights::add_meshes(const scene::Scene& scene, const std::vector<mat4>& worl
   }
 }
 
-void Lights::add_environment(const scene::Scene& scene, const std::vector<std::string>& groups, int samples) {
+void Lights::add_environment(const scene::Scene& scene, const std::vector<std::string>& groups, int samples,
+                             const Lights* before) {
   if (!scene.environment) return;
-  environment_ = scene.environment;
-  own_environment_ = environment_->equirect;
+  const scene::Environment& own = *scene.environment;
+  same_sky_ = before && before->environment_ && before->environment_->color == own.color &&
+              before->environment_->rotation == own.rotation &&
+              before->own_environment_.width == own.equirect.width &&
+              before->own_environment_.pixels == own.equirect.pixels;
+  if (!same_sky_) environment_ = own, own_environment_ = own.equirect;
   environment_samples_ = samples;
   Source source;
   source.emitter = static_cast<int>(emitters_.size());
-  source.group = scene::light_group_index(groups, scene::light_group(*environment_));
+  source.group = scene::light_group_index(groups, scene::light_group(own));
   source.radiance = vec3(1);  // its colour is in the samples and the image
   source.first_map = parallel_slots_;
   GpuEmitter e;
@@ -148,7 +149,7 @@ void Lights::add_environment(const scene::Scene& scene, const std::vector<std::s
   parallel_slots_ += samples;
   emitters_.push_back(e);
   sources_.push_back(std::move(source));
-  find_environment();
+  if (!same_sky_) find_environment();
 }
 
 void Lights::set(const scene::LightingState& state, const std::vector<mat4>& world) {
@@ -159,7 +160,7 @@ void Lights::set(const scene::LightingState& state, const std::vector<mat4>& wor
     if (source.light >= 0) {
       place(source, states_[source.light].world);
     } else if (!source.points.empty()) {
-      place(source, world_of(world, source.node));
+      place(source, node_matrix(world, source.node));
     }
   }
   const bool other = other_image_ != state.environment_image;
@@ -250,8 +251,9 @@ void Lights::place(Source& source, const mat4& world) {
   }
   const bool lobe = light.type == scene::LightType::sphl;
   e.place = vec4(vec3(world[3]), lobe ? light.radius : 0);
-  const mat3 axes = scene::emission_axes(world);
-  for (int i = 0; i < 3 && lobe; ++i) e.samples[i].place = vec4(axes[i], 0);
+  mat3 axes = scene::emission_axes(world);
+  if (light.has_profile()) axes = axes * scene::photometric_axes(light.profile.table->type);
+  for (int i = 0; i < 3 && (lobe || light.has_profile()); ++i) e.samples[i].place = vec4(axes[i], 0);
   const bool spot = light.type == scene::LightType::spot;
   if (spot) {
     const float cos_outer = std::cos(light.outer_cone);
@@ -381,6 +383,7 @@ void Lights::bind() const {
   lamps_.texture().bind(unit::light_maps);
   areas_.texture().bind(unit::area_maps);
   parallel_.texture().bind(unit::parallel_maps);
+  profiles_.bind();
   if (bounds_) bounds_->bind();
   if (!lamps_.glass().id()) return;
   lamps_.glass().bind(unit::light_glass);
@@ -389,7 +392,7 @@ void Lights::bind() const {
 }
 
 std::size_t Lights::bytes() const {
-  return lamps_.bytes() + areas_.bytes() + parallel_.bytes() + emitter_buffer_.size() +
+  return lamps_.bytes() + areas_.bytes() + parallel_.bytes() + profiles_.bytes() + emitter_buffer_.size() +
          (bounds_ ? bounds_->bytes() : 0) + distant_buffer_.size();
 }
 

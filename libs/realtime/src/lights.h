@@ -9,16 +9,26 @@
 
 #include "depth_bounds.h"
 #include "emitter_samples.h"
+#include "lamp_profiles.h"
 #include "shadow_maps.h"
 #include "view_depths.h"
 
 namespace ssphh::realtime {
 
+/// World matrix of a node; −1: the identity.
+inline const mat4& node_matrix(const std::vector<mat4>& world, int node) {
+  static const mat4 identity(1);
+  return node >= 0 ? world[static_cast<std::size_t>(node)] : identity;
+}
+
 class Lights {
  public:
-  /// As at `time` seconds, when the nodes stand as in `world`.
+  /// As at `time` seconds, when the nodes stand as in `world`. With `before`, of the same scene with other
+  /// lamps, they are whole once take_from() had it: no memory is taken for what comes from there.
   Lights(const scene::Scene& scene, float time, const std::vector<mat4>& world, const scene::Bounds& bounds,
-         const RendererParams& params);
+         const RendererParams& params, const Lights* before = nullptr);
+  /// The shadow maps that have their places here, too, and what is known of the environment.
+  void take_from(Lights& before, const std::vector<mat4>& world);
 
   /// Emission of SPHLs apart. `world`: of each node at the state's time.
   void set(const scene::LightingState& state, const std::vector<mat4>& world);
@@ -89,13 +99,21 @@ class Lights {
                   const std::vector<std::string>& groups, int most_parts);
   void add_meshes(const scene::Scene& scene, const std::vector<mat4>& world,
                   const std::vector<std::string>& groups, int samples);
-  void add_environment(const scene::Scene& scene, const std::vector<std::string>& groups, int samples);
+  void add_environment(const scene::Scene& scene, const std::vector<std::string>& groups, int samples,
+                       const Lights* before);
   void place(Source& source, const mat4& world);
   void place_samples(Source& source, const mat4& world);
   void point_sun(const Source& source, const vec3& axis, float radius);
   void place_sun(const Source& source, const scene::CameraPose& camera, float aspect, const DepthSpread& seen,
                  const scene::Bounds& bounds);
   void find_environment();
+  void show_directions();
+  void place_all(const std::vector<mat4>& world);
+  bool same_lamp_maps(const Lights& other) const { return lamp_slots_ == other.lamp_slots_; }
+  bool same_area_maps(const Lights& other) const { return area_slots_ == other.area_slots_; }
+  bool same_parallel_maps(const Lights& other) const {
+    return parallel_slots_ == other.parallel_slots_ && bounded_ == other.bounded_;
+  }
   void turn_environment();
   void place_environment(const scene::Bounds& bounds);
   void set_colors();
@@ -129,8 +147,12 @@ class Lights {
   };
   std::vector<std::optional<ParallelKey>> parallel_key_;
   int lamp_slots_ = 0, area_slots_ = 0, parallel_slots_ = 0, scene_emitters_ = 0;
+  int bounded_ = 0;        ///< parallel maps of suns with an extent, the first ones
+  bool same_sky_ = false;  ///< as the lights of before
+  scene::Bounds bounds_of_scene_;
   float near_;
   MapAtlas lamps_, areas_, parallel_;
+  LampProfiles profiles_;
   std::optional<DepthBounds> bounds_;  ///< of maps of suns with an extent
   gl::Buffer emitter_buffer_, distant_buffer_;
   bool emitters_changed_ = true, distant_changed_ = true;

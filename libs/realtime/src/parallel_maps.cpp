@@ -125,6 +125,10 @@ void Lights::place_sun(const Source& source, const scene::CameraPose& camera, fl
 void Lights::find_environment() {
   directions_ = environment_directions(*environment_, environment_samples_);
   sky_irradiance_ = environment_irradiance(*environment_);
+  show_directions();
+}
+
+void Lights::show_directions() {
   for (const Source& source : sources_) {
     GpuEmitter& e = emitters_[source.emitter];
     if (e.items.x != static_cast<int>(EmitterKind::environment)) continue;

@@ -139,6 +139,30 @@ void Renderer::set(const scene::LightingState& state) {
   d.lighting = state;
 }
 
+void Renderer::set_lamps(const scene::Scene& scene) {
+  Data& d = *data_;
+  scene::check_indices(scene);
+  require(d.scene.stands_in(scene) && scene.materials.size() == d.posed.materials.size(), "lamps",
+          "they are of a scene with other geometry");
+  scene::LightingState state = scene::lighting_at(scene, d.lighting.time);
+  state.environment_rotation = d.lighting.environment_rotation;
+  state.environment_image = d.lighting.environment_image;
+  state.emission = d.lighting.emission;
+  std::vector<mat4> world = scene::world_matrices(scene, state.time);
+  Lights lights(scene, state.time, world, d.scene.bounds(), d.params, &d.lights);
+  d.context.throw_on_error("making lamps");
+  lights.take_from(d.lights, world);
+  lights.set(state, world);
+  d.todo.clear(), d.next_piece = 0;
+  d.lights = std::move(lights);
+  d.posed = pose_only(scene);
+  d.world = std::move(world);
+  d.scene.set_groups(scene, state.group_scales, d.counters);
+  d.emit(state.emission);
+  d.direct_choice.reset();
+  d.lighting = std::move(state);
+}
+
 const scene::LightingState& Renderer::lighting() const {
   return data_->lighting;
 }

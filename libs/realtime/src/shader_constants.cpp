@@ -85,6 +85,7 @@ constexpr ShaderConstant constants[] = {
     whole("UNIT_LIGHT_GLASS", unit::light_glass),
     whole("UNIT_AREA_GLASS", unit::area_glass),
     whole("UNIT_PARALLEL_GLASS", unit::parallel_glass),
+    whole("UNIT_LAMP_PROFILES", unit::lamp_profiles),
     whole("UNIT_FITTED_RANGES", unit::fitted_ranges),
     whole("UNIT_FITTED_LISTS", unit::fitted_lists),
     whole("UNIT_FITTED_LIGHT", unit::fitted_light),

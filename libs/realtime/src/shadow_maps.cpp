@@ -56,6 +56,7 @@ std::size_t MapAtlas::bytes_of(int size, int tiles) {
 
 void MapAtlas::set_view(int tile, const MapView& view, bool used) {
   const auto t = static_cast<std::size_t>(tile);
+  if (used && fresh_[t] == fresh && views_[t] == view) return;
   views_[t] = view;
   if (used && fresh_[t] == unwanted) return;
   stale_ -= fresh_[t] == stale;

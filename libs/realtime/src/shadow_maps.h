@@ -24,6 +24,8 @@ struct MapView {
   /// Of a cube face, metres: nobody farther away asks, so what stands beyond blocks nothing.
   float reach = std::numeric_limits<float>::infinity();
   float clear_radius = 0;  ///< of a cube face, metres: nothing nearer to the origin blocks
+
+  friend bool operator==(const MapView&, const MapView&) = default;
 };
 
 /// Face 0..5 in the order and with the axes of shadow.glsl.
@@ -56,7 +58,7 @@ class MapAtlas {
   /// Colours, tile by tile; none before an update with a program for glass.
   const gl::Texture& glass() const { return glass_; }
 
-  /// Marks a tile as to be drawn with this view; `used` false: nobody looks at it.
+  /// Marks a tile as to be drawn with this view, unless it was; `used` false: nobody looks at it.
   void set_view(int tile, const MapView& view, bool used = true);
   /// Tiles that are not wanted keep their view, and are drawn when they are wanted again.
   void want(int first, int count, bool wanted);

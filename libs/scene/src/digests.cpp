@@ -72,6 +72,10 @@ void add(Hasher& h, const Light& l) {
   h.value(l.type == LightType::directional ? l.angular_radius : l.range);
   if (l.type == LightType::spot) h.value(l.inner_cone).value(l.outer_cone);
   if (l.type == LightType::sphere || l.type == LightType::sphl) h.value(l.radius);
+  if (l.has_profile()) {
+    const PhotometricTable& t = *l.profile.table;
+    h.text("profile").value(t.type).array(t.polar).array(t.turn).array(t.candela);
+  }
   if (l.type != LightType::sphl) return;
   h.value(l.emission.frames.size()).value(l.emission.rate).value(l.emission.start).value(l.emission.repeat);
   for (const sh::IntensitySh& frame : l.emission.frames) h.array(frame.values);

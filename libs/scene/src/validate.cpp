@@ -121,6 +121,7 @@ void validate_light(Light& light, const std::string& where, Repairs& repairs) {
       throw Error(where, fmt::format("SPHL of radius {} m", light.radius), "give it a radius above 0");
     check_emission(light.emission, where);
   }
+  if (!light.profile.empty()) check_profile(*light.profile.table, where);
   const std::string kind = "light parameters out of range: clamped";
   clamp(light.color, 0, unlimited, repairs, kind);
   clamp(light.intensity, 0, unlimited, repairs, kind);

@@ -50,6 +50,8 @@ Scene scene_with_all_fields() {
   for (Light& l : s.lights) {
     l.node = 0, l.radius = 0.5f;
     l.emission = {.frames = {sh::IntensitySh(1), sh::IntensitySh(1)}, .rate = 2};
+    l.profile = {
+        "p", std::make_shared<const PhotometricTable>(PhotometricTable{Photometry::c, {0, 90}, {0}, {1, 2}})};
   }
   for (Camera& c : s.cameras) c.node = 0;
   s.sphls.push_back({"s", 0, 0.1f, true});
@@ -140,18 +142,19 @@ std::vector<Field> changed_scenes() {
 /// Fields that no picture and no light depends on, as patterns of paths.
 bool invisible(const std::string& path) {
   static const std::regex patterns(
-      "name|ignored.*"                                              // of the scene: for people
-      "|light_modes.*"                                              // what is to be kept of the light
-      "|(textures|materials|meshes|animations)\\[.*\\]\\.name"      // for people
-      "|(meshes|textures)\\[1\\]\\..*"                              // not used
-      "|materials\\[.\\]\\.thickness"                               // whether there is one counts
-      "|nodes\\[1\\]\\.(translation|rotation|scale)"                // its matrix replaces them
-      "|nodes\\[.\\]\\.movable"                                     // follows from the animations
-      "|cameras\\[0\\]\\.yheight|cameras\\[1\\]\\.yfov"             // of the other projection
-      "|lights\\[[012]\\]\\.radius"                                 // spheres have one
-      "|lights\\[[0-3]\\]\\.emission.*"                             // SPHLs have one
-      "|lights\\[[0134]\\]\\.angular_radius|lights\\[2\\]\\.range"  // suns have one, and reach everywhere
-      "|lights\\[[0234]\\]\\.(inner|outer)_cone");                  // spots have one
+      "name|ignored.*"                                                 // of the scene: for people
+      "|light_modes.*"                                                 // what is to be kept of the light
+      "|(textures|materials|meshes|animations)\\[.*\\]\\.name"         // for people
+      "|(meshes|textures)\\[1\\]\\..*"                                 // not used
+      "|materials\\[.\\]\\.thickness"                                  // whether there is one counts
+      "|nodes\\[1\\]\\.(translation|rotation|scale)"                   // its matrix replaces them
+      "|nodes\\[.\\]\\.movable"                                        // follows from the animations
+      "|cameras\\[0\\]\\.yheight|cameras\\[1\\]\\.yfov"                // of the other projection
+      "|lights\\[[012]\\]\\.radius"                                    // spheres have one
+      "|lights\\[[0-3]\\]\\.emission.*"                                // SPHLs have one
+      "|lights\\[.\\]\\.profile\\.name|lights\\[[234]\\]\\.profile.*"  // for people; of points and spots
+      "|lights\\[[0134]\\]\\.angular_radius|lights\\[2\\]\\.range"     // suns have one, and reach everywhere
+      "|lights\\[[0234]\\]\\.(inner|outer)_cone");                     // spots have one
   return std::regex_match(path, patterns);
 }
 

@@ -35,7 +35,8 @@ scene::Scene load_gltf(std::span<const std::byte> data, const std::filesystem::p
                     .node_of_node = {},
                     .shapes = {},
                     .bent = {},
-                    .weight_keys = {}};
+                    .weight_keys = {},
+                    .profiles = {}};
   check_structure(document);
   import_materials(import);
   import_nodes(import);

@@ -48,6 +48,10 @@ class Checker {
       if (const auto list = lights->find("lights"))
         for (const json::Cursor& light : json::elements(*list)) import_light(light, document_);
     }
+    if (const auto profiles = extension(document_.root(), "EXT_lights_ies")) {
+      for (const json::Cursor& profile : json::elements((*profiles)["lights"]))
+        reference(profile, "bufferView", "bufferViews");
+    }
   }
 
  private:

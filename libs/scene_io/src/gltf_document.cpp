@@ -34,14 +34,23 @@ constexpr std::string_view transcode =
     "IN.ktx2 OUT.png";
 
 constexpr std::array known_extensions = {
-    KnownExtension{"EXT_mesh_gpu_instancing", {}},    KnownExtension{"EXT_meshopt_compression", {}},
-    KnownExtension{"EXT_texture_webp", {}},           KnownExtension{"KHR_draco_mesh_compression", {}},
-    KnownExtension{"KHR_lights_punctual", {}},        KnownExtension{"KHR_materials_emissive_strength", {}},
-    KnownExtension{"KHR_materials_ior", {}},          KnownExtension{"KHR_materials_specular", {}},
-    KnownExtension{"KHR_materials_transmission", {}}, KnownExtension{"KHR_materials_volume", {}},
-    KnownExtension{"KHR_materials_unlit", {}},        KnownExtension{"KHR_mesh_quantization", {}},
-    KnownExtension{"KHR_meshopt_compression", {}},    KnownExtension{"KHR_texture_transform", {}},
-    KnownExtension{"KHR_texture_basisu", transcode},  KnownExtension{"EXT_texture_avif", recode},
+    KnownExtension{"EXT_mesh_gpu_instancing", {}},
+    KnownExtension{"EXT_meshopt_compression", {}},
+    KnownExtension{"EXT_texture_webp", {}},
+    KnownExtension{"KHR_draco_mesh_compression", {}},
+    KnownExtension{"EXT_lights_ies", {}},
+    KnownExtension{"KHR_lights_punctual", {}},
+    KnownExtension{"KHR_materials_emissive_strength", {}},
+    KnownExtension{"KHR_materials_ior", {}},
+    KnownExtension{"KHR_materials_specular", {}},
+    KnownExtension{"KHR_materials_transmission", {}},
+    KnownExtension{"KHR_materials_volume", {}},
+    KnownExtension{"KHR_materials_unlit", {}},
+    KnownExtension{"KHR_mesh_quantization", {}},
+    KnownExtension{"KHR_meshopt_compression", {}},
+    KnownExtension{"KHR_texture_transform", {}},
+    KnownExtension{"KHR_texture_basisu", transcode},
+    KnownExtension{"EXT_texture_avif", recode},
     KnownExtension{"MSFT_texture_dds", recode},
 };
 

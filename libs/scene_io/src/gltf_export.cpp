@@ -58,6 +58,9 @@ std::vector<std::byte> export_glb(const scene::Scene& scene, const json::Value& 
   if (!out.lights.empty()) {
     document["extensions"]["KHR_lights_punctual"]["lights"] = std::move(out.lights);
   }
+  if (!out.profiles.empty()) {
+    document["extensions"]["EXT_lights_ies"]["lights"] = std::move(out.profiles);
+  }
   if (!out.extensions.empty())
     document["extensionsUsed"] = json::Array(out.extensions.begin(), out.extensions.end());
   document["scene"] = 0;

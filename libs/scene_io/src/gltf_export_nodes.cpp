@@ -132,8 +132,12 @@ bool export_contents(GltfExport& out, MeshExport& meshes, const Contents& conten
     any = true;
   }
   if (k < contents.lights.size()) {
-    const int light = push(out.lights, export_light(*contents.lights[k]));
-    add_extension(out, json, "KHR_lights_punctual", {{"light", light}});
+    const scene::Light& light = *contents.lights[k];
+    if (light.has_profile()) {
+      add_extension(out, json, "EXT_lights_ies", export_profile_light(out, light, name));
+    } else {
+      add_extension(out, json, "KHR_lights_punctual", {{"light", push(out.lights, export_light(light))}});
+    }
     any = true;
   }
   if (k < contents.sphls.size()) {

@@ -22,8 +22,8 @@ struct GltfExport {
   json::Value accessors = json::Value::array(), animations = json::Value::array(),
               buffer_views = json::Value::array(), cameras = json::Value::array(),
               images = json::Value::array(), lights = json::Value::array(), materials = json::Value::array(),
-              meshes = json::Value::array(), nodes = json::Value::array(), samplers = json::Value::array(),
-              textures = json::Value::array();
+              meshes = json::Value::array(), nodes = json::Value::array(), profiles = json::Value::array(),
+              samplers = json::Value::array(), textures = json::Value::array();
   std::set<std::string> extensions;
   std::vector<std::byte> binary;
 
@@ -31,6 +31,7 @@ struct GltfExport {
   std::map<std::tuple<unsigned, unsigned, bool>, int> samplers_by_wrap;
   std::map<std::pair<int, int>, int> textures_by_parts;
   int default_material = -1;
+  std::vector<scene::LampProfile> profiles_written;  ///< in the order of `profiles`
 };
 
 /// The shortest decimal that reads back as the same float. Throws Error for NaN and infinities.
@@ -65,6 +66,8 @@ json::Value export_nodes(GltfExport& out);
 
 json::Value export_camera(const scene::Camera& camera);
 json::Value export_light(const scene::Light& light);
+/// EXT_lights_ies of a node: a light with a profile, which is written once for all that have it.
+json::Value export_profile_light(GltfExport& out, const scene::Light& light, const std::string& node_name);
 /// extras.ssphh.environment of the glTF scene, or null.
 json::Value export_environment(GltfExport& out);
 /// extras.ssphh.light_modes of it, or null.

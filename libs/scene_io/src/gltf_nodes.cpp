@@ -98,6 +98,13 @@ void add_gpu_instances(GltfImport& import, const json::Cursor& file_node, const 
   }
 }
 
+void add_profile_light(GltfImport& import, const json::Cursor& file_node, int node) {
+  auto light = import_profile_light(import, file_node, import.scene.nodes[node].name);
+  if (!light) return;
+  light->node = node;
+  import.scene.lights.push_back(*std::move(light));
+}
+
 void add_light(GltfImport& import, const json::Cursor& file_node, int node) {
   const auto reference = extension(file_node, "KHR_lights_punctual");
   if (!reference) return;
@@ -161,6 +168,7 @@ void add_contents(GltfImport& import, const json::Cursor& file_node, int node) {
     import.scene.cameras.push_back(std::move(out));
   }
   add_light(import, file_node, node);
+  add_profile_light(import, file_node, node);
   add_sphl(import, file_node, node);
 }
 

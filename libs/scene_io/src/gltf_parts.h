@@ -32,6 +32,7 @@ struct GltfImport {
   /// Of the scene's nodes whose morph targets are animated: channel k moves node k along x by target k's
   /// weight.
   std::map<int, std::vector<scene::AnimationChannel>> weight_keys;
+  std::map<int, scene::LampProfile> profiles;  ///< of EXT_lights_ies, read on first use
 };
 
 /// Types, references and sizes of everything in the file, used or not, before anything is decoded.
@@ -48,6 +49,10 @@ void import_nodes(GltfImport& import);
 
 /// Light of KHR_lights_punctual, without its node.
 scene::Light import_light(const json::Cursor& light, const GltfDocument& document);
+/// Lamp of EXT_lights_ies at a node of the file, without its node; `name`: where it has none of its own.
+/// None: the node has no such lamp.
+std::optional<scene::Light> import_profile_light(GltfImport& import, const json::Cursor& file_node,
+                                                 const std::string& name);
 /// Files that the document's extras name, beside it.
 FileOf files_beside(const GltfDocument& document);
 /// Camera, without its node.

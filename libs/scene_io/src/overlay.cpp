@@ -17,6 +17,7 @@
 #include "overlay_paths.h"
 #include "read_emission.h"
 #include "read_light_modes.h"
+#include "read_profile.h"
 #include "read_tone_curves.h"
 
 namespace ssphh::scene_io {
@@ -99,7 +100,7 @@ void read_light(Scene& scene, const json::Cursor& entry, std::size_t number,
                 const std::filesystem::path& overlay) {
   entry.only({"name", "light_group", "type", "position", "look_at", "direction", "up", "node", "color",
               "intensity", "radius", "angular_diameter_degrees", "inner_cone_degrees", "outer_cone_degrees",
-              "range", "emission"});
+              "range", "emission", "profile"});
   scene::Light light;
   light.name = entry.text_or("name", fmt::format("light {}", number));
   light.group = entry.text_or("light_group");
@@ -115,13 +116,21 @@ void read_light(Scene& scene, const json::Cursor& entry, std::size_t number,
   } else if (const auto emission = entry.find("emission")) {
     emission->fail("only an SPHL has one");
   }
+  if (const auto profile = entry.find("profile")) {
+    if (light.type != scene::LightType::point && light.type != scene::LightType::spot)
+      profile->fail("only a point or spot light has one");
+    light.profile =
+        read_profile(*profile, [&](const json::Cursor& file) { return overlay_path(file, overlay); });
+    if (!entry.find("intensity")) light.intensity = scene::greatest_candela(*light.profile.table);
+  }
   light.angular_radius = degrees(entry, "angular_diameter_degrees", 0, 180, 0) / 2;
   light.inner_cone = degrees(entry, "inner_cone_degrees", 0, 90, 0);
   light.outer_cone = degrees(entry, "outer_cone_degrees", 0, 90, 45);
   if (light.inner_cone > light.outer_cone) entry.fail("the inner cone is wider than the outer one");
   const bool directed = light.type == scene::LightType::spot || light.type == scene::LightType::directional;
-  if (directed && !entry.find("look_at") && !entry.find("direction")) {
-    entry.fail(fmt::format("a {} light needs \"direction\" or \"look_at\"", name_of(light.type)));
+  if ((directed || light.has_profile()) && !entry.find("look_at") && !entry.find("direction")) {
+    entry.fail(fmt::format("a {} light{} needs \"direction\" or \"look_at\"", name_of(light.type),
+                           light.has_profile() ? " with a profile" : ""));
   }
   light.node = add_node(scene, entry, light.name);
   scene.lights.push_back(std::move(light));

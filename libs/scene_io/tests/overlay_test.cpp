@@ -52,7 +52,8 @@ constexpr const char* rich_overlay = R"({
   "name": "rich", "unit": 0.5, "origin": [1, 0, 0],
   "cameras": [{"name": "c", "position": [0, 0, 5], "look_at": [0, 0, 0], "xfov_degrees": 90, "aspect": 2}],
   "lights": [{"name": "spot", "type": "spot", "position": [0, 3, 0], "direction": [0, -1, 0], "intensity": 7,
-              "inner_cone_degrees": 10, "outer_cone_degrees": 20, "light_group": "g", "color": [1, 0.5, 0.25]},
+              "inner_cone_degrees": 10, "outer_cone_degrees": 20, "light_group": "g", "color": [1, 0.5, 0.25],
+              "profile": {"name": "p", "ies": "TILT=NONE\n1 1 1 2 1 1 2 0 0 0 1 1 0 0 90 0 5 6"}},
              {"type": "sphere", "radius": 0.5, "intensity": 2}],
   "without": {"lights": ["nobody"]}, "light_factors": {"g": [1, 1, 1]}, "environment_turn_degrees": 0,
   "sphls": [{"position": [1, 2, 3], "radius": 0.2}, {"name": "on-arm", "position": [0, 1, 0], "node": "arm"}],
@@ -122,6 +123,7 @@ TEST(Overlay, TheSchemaAgreesWithTheReader) {
   EXPECT_THAT(errors(read_text_file(folder / "examples/scenes/sponza.ssphh.json")), testing::IsEmpty());
   for (const char* wrong :
        {R"({"camera": []})", R"({"cameras": [{"xfov_degrees": 90}]})", R"({"lights": [{"type": "laser"}]})",
+        R"({"lights": [{"type": "point", "direction": [0, -1, 0], "profile": {"path": "x"}}]})",
         R"({"sphls": [{"position": [0, 0]}]})", R"({"sphls": [{"position": [0,0,0], "radius": 0}]})", "[]"}) {
     EXPECT_THAT(errors(wrong), testing::Not(testing::IsEmpty())) << wrong;
     EXPECT_NE(overlay_error(wrong), "");

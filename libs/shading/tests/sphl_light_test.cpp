@@ -7,6 +7,7 @@
 #include "chi2.h"
 #include "light_scenes.h"
 #include "lights/punctual_lights.h"
+#include "lights/shaped_intensity.h"
 
 namespace ssphh::shading::test {
 namespace {

@@ -62,6 +62,15 @@ std::vector<Case> lamps_and_suns() {
          s.lights.push_back(lamp(LightType::spot, 5));
          s.lights.back().inner_cone = 0.3f, s.lights.back().outer_cone = 0.8f;
        }},
+      {"profile",
+       [](scene::Scene& s) {
+         s.lights.push_back(lamp(LightType::point, 5));
+         s.lights.back().profile = {"p", std::make_shared<const scene::PhotometricTable>(
+                                             scene::PhotometricTable{scene::Photometry::c,
+                                                                     {0, 30, 70, 180},
+                                                                     {0, 180, 360},
+                                                                     {9, 8, 0, 0, 9, 2, 1, 3, 9, 8, 0, 0}})};
+       }},
       {"sphere",
        [](scene::Scene& s) { s.lights.push_back(lamp(LightType::sphere, 3)), s.lights.back().radius = 0.4f; },
        true},

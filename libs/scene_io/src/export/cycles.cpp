@@ -116,7 +116,8 @@ void note_material(const scene::Material& m, Differences& differences) {
 
 json::Value light_json(const FlatLight& flat) {
   const scene::Light& l = *flat.light;
-  const bool shaped = l.type == scene::LightType::sphl;
+  const bool shaped =
+      l.type == scene::LightType::sphl || (l.has_profile() && l.type == scene::LightType::point);
   return {{"name", l.name},
           {"type", shaped ? "point" : name_of(l.type)},
           {"position", array(flat.position)},

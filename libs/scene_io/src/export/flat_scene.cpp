@@ -48,6 +48,10 @@ FlatScene flatten(const scene::Scene& scene, float time) {
     vec3 strength = light.color * light.intensity;
     if (light.type == scene::LightType::sphl)
       strength *= scene::mean_intensity(scene::emission_at(light.emission, time));
+    if (light.has_profile() && light.type == scene::LightType::point) {
+      const scene::PhotometricTable& table = *light.profile.table;
+      strength *= scene::mean_candela(table) / scene::greatest_candela(table);
+    }
     flat.lights.push_back({&light, m, vec3(m[3]), -glm::normalize(vec3(m[2])), strength});
   }
   return flat;

@@ -133,6 +133,11 @@ void note_light(const scene::Light& light, Differences& differences) {
   if (light.type == scene::LightType::sphl)
     differences.add("SPHLs that shine become point lights: as much light, into all directions alike",
                     light.name);
+  if (!light.has_profile()) return;
+  differences.add(light.type == scene::LightType::point
+                      ? "lamps with a photometric profile shine into all directions alike: as much light"
+                      : "spots have no photometric profile: as bright everywhere between their cones",
+                  light.name);
 }
 
 }  // namespace ssphh::scene_io

@@ -13,6 +13,8 @@
 
 namespace ssphh::shading {
 
+class ProfileTable;
+
 struct DirectionalLight {
   vec3 to_light;    ///< unit
   vec3 irradiance;  ///< on a facing plane
@@ -24,7 +26,8 @@ struct PosedLight {
   scene::Light light;
   mat4 world{1};
   int group = 0;
-  sh::IntensitySh emission{};  ///< now
+  sh::IntensitySh emission{};                     ///< now
+  std::shared_ptr<const ProfileTable> profile{};  ///< of a point or spot light that has one
 };
 
 /// Uniformly bright disc.

@@ -13,7 +13,7 @@ namespace ssphh::shading {
 
 rays::Photon PointLight::emit(const vec2& u) const {
   if (shape) {
-    const ShapedIntensity::Direction chosen = shape->sample(u);
+    const LampShape::Direction chosen = shape->sample(u);
     return {position + radius * chosen.direction, chosen.direction,
             intensity * shape->toward(chosen.direction) / chosen.pdf, range};
   }

@@ -6,6 +6,7 @@
 
 #include "../surface/material_lookup.h"
 #include "light_set_data.h"
+#include "profile_intensity.h"
 
 namespace ssphh::shading {
 namespace {
@@ -62,7 +63,7 @@ LightSet::LightSet(const LightSet& base, const std::vector<mat4>& world,
   d.scene = base.data_->scene;
   d.scene_radius = base.data_->scene_radius;
   d.groups = base.data_->groups;
-  d.read_lights();
+  d.lights = base.data_->lights;
   pose(base, world, states, surroundings);
 }
 
@@ -87,16 +88,29 @@ void LightSet::pose(const LightSet& base, const std::vector<mat4>& world,
 
 void LightSet::Data::read_lights() {
   for (const scene::Light& light : scene->lights)
-    lights.push_back({light, mat4(1), scene::light_group_index(groups, scene::light_group(light)), {}});
+    lights.push_back({light, mat4(1), scene::light_group_index(groups, scene::light_group(light))});
+  // Lamps of one luminaire share its table.
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const scene::Light& light = lights[i].light;
+    if (!light.has_profile()) continue;
+    const auto alike = std::find_if(lights.begin(), lights.begin() + i, [&](const PosedLight& other) {
+      return other.profile && light.type == scene::LightType::point && other.light.type == light.type &&
+             other.light.profile == light.profile;
+    });
+    lights[i].profile =
+        alike == lights.begin() + i ? std::make_shared<const ProfileTable>(light) : alike->profile;
+  }
 }
 
 void LightSet::Data::add_lights() {
   points.clear();
   spheres.clear();
   for (const PosedLight& posed : lights) {
-    const auto& [light, world, group, emission] = posed;
+    const auto& [light, world, group, emission, profile] = posed;
     if (!(luminance(light.color * light.intensity) > 0)) continue;
-    if (light.type == scene::LightType::point || light.type == scene::LightType::spot) {
+    if (profile) {
+      points.push_back(make_profile_light(posed, group));
+    } else if (light.type == scene::LightType::point || light.type == scene::LightType::spot) {
       points.push_back(make_point_light(light, world, group));
     } else if (light.type == scene::LightType::sphl && !emission.empty()) {
       points.push_back(make_sphl_light(posed, group));

@@ -5,6 +5,8 @@
 #include <ssphh/core/sphere.h>
 
 #include "cone.h"
+#include "profile_intensity.h"
+#include "shaped_intensity.h"
 
 namespace ssphh::shading {
 namespace {
@@ -26,9 +28,16 @@ PointLight make_point_light(const scene::Light& light, const mat4& world, int gr
   const vec3 back(world[2]);
   const float length = glm::length(back);
   result.axis = length > 0 ? -back / length : vec3(0, 0, -1);
-  const float cos_outer = std::cos(light.outer_cone);
-  result.cone_scale = 1 / glm::max(0.001f, std::cos(light.inner_cone) - cos_outer);
-  result.cone_offset = -cos_outer * result.cone_scale;
+  const ConeFalloff cone = cone_falloff(light);
+  result.cone_scale = cone.scale, result.cone_offset = cone.offset;
+  return result;
+}
+
+PointLight make_profile_light(const PosedLight& posed, int group) {
+  PointLight result;
+  result.position = vec3(posed.world[3]), result.intensity = posed.light.color * posed.light.intensity;
+  result.range = posed.light.range, result.group = group;
+  result.shape = std::make_shared<const ProfileIntensity>(posed.profile, posed.world);
   return result;
 }
 

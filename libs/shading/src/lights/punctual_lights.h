@@ -6,19 +6,20 @@
 #include <ssphh/shading/lights.h>
 
 #include "distant_lights.h"
-#include "shaped_intensity.h"
+#include "lamp_shape.h"
 
 namespace ssphh::shading {
 
-/// Isotropic intensity, narrowed to a cone for spots and to a range if one is given; or the shape of an SPHL.
+/// Isotropic intensity, narrowed to a cone for spots and to a range if one is given; or the shape of an SPHL
+/// or of a photometric profile.
 struct PointLight {
   vec3 position{0};
-  vec3 intensity{0};  ///< [W/sr]; of an SPHL a factor on its shape
+  vec3 intensity{0};  ///< [W/sr]; where there is a shape, a factor on it
   vec3 axis{0};       ///< unit, direction of a spot; zero: point light
   float cone_scale = 0, cone_offset = 1;
   float range = 0;  ///< 0: unlimited
   int group = 0;
-  std::shared_ptr<const ShapedIntensity> shape{};  ///< of an SPHL
+  std::shared_ptr<const LampShape> shape{};  ///< of an SPHL, or a profile within a spot's cones
   float radius = 0;  ///< of an SPHL: within it nothing shadows, and no light is nearer
 
   /// Cone and range factors of KHR_lights_punctual toward `wi`, which points to the light; 0..1.
@@ -51,6 +52,8 @@ struct SphereLight {
 /// Of emission that is not empty.
 PointLight make_sphl_light(const PosedLight& posed, int group);
 PointLight make_point_light(const scene::Light& light, const mat4& world, int group);
+/// Of a point or spot light with a profile.
+PointLight make_profile_light(const PosedLight& posed, int group);
 SphereLight make_sphere_light(const scene::Light& light, const mat4& world, int group);
 
 }  // namespace ssphh::shading

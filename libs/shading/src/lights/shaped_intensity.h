@@ -5,26 +5,21 @@
 #include <ssphh/scene/emission.h>
 
 #include "distribution.h"
+#include "lamp_shape.h"
 
 namespace ssphh::shading {
 
-class ShapedIntensity {
+class ShapedIntensity final : public LampShape {
  public:
   /// Coefficients in the lamp's axes, which are the columns of `world`; their scale does not count.
   ShapedIntensity(sh::IntensitySh emission, const mat4& world);
 
-  /// I ≥ 0 into a unit direction of the world, away from the lamp.
-  vec3 toward(const vec3& direction) const;
-  /// Mean of I over all directions.
-  const vec3& mean() const { return mean_; }
-
-  struct Direction {
-    vec3 direction;  ///< unit, of the world
-    float pdf;       ///< by solid angle; nowhere 0
-  };
-  /// By the luminance of I in cells of equal solid angle, evenly within each.
-  Direction sample(const vec2& u) const;
-  float pdf(const vec3& direction) const;
+  vec3 toward(const vec3& direction) const override;
+  vec3 mean() const override { return mean_; }
+  /// Cells of equal solid angle.
+  Direction sample(const vec2& u) const override;
+  /// Nowhere 0.
+  float pdf(const vec3& direction) const override;
 
  private:
   vec3 to_local(const vec3& direction) const { return glm::normalize(direction * axes_); }

@@ -69,6 +69,12 @@ class Renderer {
   void set(const scene::LightingState& state);
   /// What was last set; at first scene::lighting_at() of the scene, at the constructor's time.
   const scene::LightingState& lighting() const;
+  /// The lamps of `scene` in place of those of now, without any upload of geometry, textures or probes:
+  /// lamps come, go, or are of another kind. `scene` is the constructor's but for its lamps and the nodes
+  /// that they alone stand at. What lights it is scene::lighting_at() at the time that was last set, its
+  /// environment as set. Throws Error for instances at other nodes, another number of materials, and more
+  /// lamps than the driver has room for; everything stays as it was then.
+  void set_lamps(const scene::Scene& scene);
   /// Numbers of a material; its textures stay those of the scene. Throws Error for an index out of range.
   void set_material(int index, const scene::Material& material);
 

@@ -13,6 +13,7 @@
 #include <ssphh/core/math.h>
 #include <ssphh/image/image.h>
 #include <ssphh/scene/emission.h>
+#include <ssphh/scene/lamp_profile.h>
 #include <ssphh/scene/light_mode.h>
 #include <ssphh/scene/sun_sky_params.h>
 
@@ -159,6 +160,13 @@ struct Light {
   float angular_radius = 0;  ///< directional: radians; 0 is a delta light, the sun's is 0.00465
   float inner_cone = 0, outer_cone = pi / 4;  ///< spot, radians from the axis
   float range = 0;  ///< 0: unlimited; else the falloff KHR_lights_punctual recommends
+  /// point, spot: shares of `intensity`, which is that of the brightest direction; empty: alike in all
+  /// directions. A spot's cones narrow it further.
+  LampProfile profile{};
+
+  bool has_profile() const {
+    return !profile.empty() && (type == LightType::point || type == LightType::spot);
+  }
 };
 
 /// Infinitely distant light: an equirectangular image (see docs/conventions.md for its axes) or a constant.

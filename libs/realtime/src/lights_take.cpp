@@ -1,0 +1,34 @@
+/// Lights in place of those of before: maps that are drawn, and a sky that is looked through, are kept.
+
+#include <utility>
+
+#include "lights.h"
+
+namespace ssphh::realtime {
+
+void Lights::place_all(const std::vector<mat4>& world) {
+  for (Source& source : sources_) {
+    place(source, source.light >= 0 ? states_[source.light].world : node_matrix(world, source.node));
+  }
+  place_environment(bounds_of_scene_);
+}
+
+void Lights::take_from(Lights& before, const std::vector<mat4>& world) {
+  const auto take = [](MapAtlas& to, MapAtlas& from) {
+    to = std::move(from);
+    to.want(0, to.count(), true);
+  };
+  if (same_lamp_maps(before)) take(lamps_, before.lamps_);
+  if (same_area_maps(before)) take(areas_, before.areas_);
+  if (same_parallel_maps(before)) take(parallel_, before.parallel_), bounds_ = std::move(before.bounds_);
+  if (same_sky_) {
+    environment_ = std::move(before.environment_);
+    own_environment_ = std::move(before.own_environment_);
+    other_image_ = before.other_image_;
+    directions_ = before.directions_, sky_irradiance_ = before.sky_irradiance_, turn_ = before.turn_;
+    show_directions();
+  }
+  place_all(world);
+}
+
+}  // namespace ssphh::realtime

@@ -1,0 +1,175 @@
+/// Other lamps in a renderer that is there: the pictures of one that was made with them, and what it takes.
+
+#include <gmock/gmock.h>
+
+#include <ssphh/core/error.h>
+#include <ssphh/scene/builtin.h>
+#include <ssphh/scene/sun_sky.h>
+
+#include "change_lighting.h"
+#include "error_message.h"
+#include "gl_context.h"
+#include "pictures.h"
+
+namespace ssphh::test {
+namespace {
+
+using realtime::Renderer;
+
+class SetLamps : public WithGl {
+ protected:
+  SetLamps() : scene_(scene::make_builtin("two-rooms")) {
+    scene_.materials[2].emission = vec3(3, 2, 1);
+    scene::SunSkyParams sky;
+    sky.width = 32;
+    scene::add_sun_sky(scene_, sky);
+    scene::validate(scene_);
+  }
+
+  /// A spot with a profile and a ball come, another lamp goes; groups that come and go number the others
+  /// anew.
+  scene::Scene with_other_lamps() const {
+    scene::Scene other = scene_;
+    other.lights.erase(other.lights.begin());
+    for (const auto type : {scene::LightType::spot, scene::LightType::sphere}) {
+      scene::Light light;
+      light.name = name_of(type), light.group = "new";
+      light.type = type, light.radius = 0.1f, light.intensity = 30, light.color = {1, 0.5f, 0.2f};
+      light.node = static_cast<int>(other.nodes.size());
+      other.nodes.emplace_back().local.translation = {-2, 2, 0.5f};
+      if (type == scene::LightType::spot)
+        light.profile = {"p",
+                         std::make_shared<const scene::PhotometricTable>(scene::PhotometricTable{
+                             scene::Photometry::c, {0, 30, 90}, {0, 180, 360}, {1, 5, 2, 1, 0, 3, 1, 5, 2}})};
+      other.lights.insert(other.lights.begin(), light);
+    }
+    scene::validate(other);
+    return other;
+  }
+
+  static image::Image draw(Renderer& renderer, const scene::Scene& scene) {
+    renderer.draw(scene::camera_pose(scene, ""), {}, {.width = 48, .height = 27});
+    return renderer.read_back();
+  }
+  Renderer make(const scene::Scene& scene) {
+    return Renderer(
+        gl(), scene,
+        {.light_map_size = 64, .area_map_size = 16, .sun_map_size = 64, .environment_samples = 4});
+  }
+
+  scene::Scene scene_;
+};
+
+TEST_F(SetLamps, GivesThePicturesOfARendererMadeWithThem) {
+  const scene::Scene other = with_other_lamps();
+  const probes::ProbeSet probes = made_up_probes(scene_);
+  Renderer before = make(scene_), after = make(other), changed = make(scene_);
+  for (Renderer* renderer : {&before, &after, &changed}) renderer->set_probes(probes);
+  const image::Image own = draw(changed, scene_);
+  EXPECT_EQ(own.pixels, draw(before, scene_).pixels);
+  changed.set_lamps(other);
+  EXPECT_EQ(changed.lighting(), after.lighting());
+  const image::Image now = draw(changed, scene_);
+  EXPECT_EQ(now.pixels, draw(after, scene_).pixels);
+  EXPECT_NE(now.pixels, own.pixels);
+  // Factors of groups reach surfaces that glow and lamps under their new numbers.
+  const auto dim = [](auto& state) {
+    for (std::size_t g = 0; g < state.group_scales.size(); ++g)
+      state.group_scales[g] = vec3(0.3f * float(g + 1));
+  };
+  change_lighting(changed, dim), change_lighting(after, dim);
+  EXPECT_EQ(draw(changed, scene_).pixels, draw(after, scene_).pixels);
+  changed.set_lamps(scene_);
+  EXPECT_EQ(draw(changed, scene_).pixels, own.pixels) << "and back again, factors of before gone";
+}
+
+TEST_F(SetLamps, KeepsTimeEnvironmentAndGlowingProbes) {
+  const scene::Scene other = with_other_lamps();
+  const auto state = [&](auto& now) {
+    now.time = 0.5f;
+    now.environment_rotation = 1;
+    now.environment_image = std::make_shared<image::Image>(8, 4, 3);
+    for (float& v : std::const_pointer_cast<image::Image>(now.environment_image)->pixels) v = 0.25f;
+    now.emission = {{0, sh::RadianceSh(0)}};
+    now.emission[0].leaving[0] = vec3(1, 2, 3);
+  };
+  Renderer changed = make(scene_), after = make(other);
+  for (Renderer* renderer : {&changed, &after}) renderer->set_probes(made_up_probes(scene_));
+  change_lighting(changed, state), change_lighting(after, state);
+  draw(changed, scene_);
+  changed.set_lamps(other);
+  EXPECT_EQ(changed.lighting().time, 0.5f);
+  EXPECT_EQ(changed.lighting().emission, after.lighting().emission);
+  EXPECT_EQ(draw(changed, scene_).pixels, draw(after, scene_).pixels);
+}
+
+// Nobody asked for maps of what probes hold; once they are gone, they are drawn.
+TEST_F(SetLamps, DrawsTheMapsThatBakedGroupsDidNotNeed) {
+  probes::ProbeSet baked = made_up_probes(scene_);
+  baked.light_groups[0] = {scene::light_groups(scene_)[0], vec3(1), scene::LightMode::baked};
+  scene::Scene other = scene_;
+  other.lights[0].intensity *= 2;
+  Renderer changed = make(scene_), after = make(other);
+  changed.set_probes(baked);
+  draw(changed, scene_);
+  changed.set_lamps(other);
+  changed.clear_probes();
+  EXPECT_EQ(draw(changed, scene_).pixels, draw(after, scene_).pixels);
+}
+
+// A sky, and what stands still in it, are drawn once.
+TEST_F(SetLamps, KeepsTheMapsOfTheSky) {
+  Renderer renderer = make(scene_);
+  draw(renderer, scene_);
+  const int all = renderer.stats().shadow_maps_drawn;
+  draw(renderer, scene_);  // the sun's follow what the first one saw
+  scene::Scene other = scene_;
+  other.lights.push_back(other.lights[0]);
+  other.lights.back().type = scene::LightType::point;
+  renderer.set_lamps(other);
+  draw(renderer, scene_);
+  EXPECT_EQ(renderer.stats().shadow_maps_drawn, 12) << "the faces of the lamp and of the one before";
+  EXPECT_GT(all, 20);
+}
+
+TEST_F(SetLamps, UploadsLampsAlone) {
+  scene::Scene large = scene_;
+  // Five thousand triangles more
+  scene::Mesh& mesh = large.meshes[0];
+  const std::vector<uvec3> own = mesh.triangles;
+  while (mesh.triangles.size() < 5'000) mesh.triangles.insert(mesh.triangles.end(), own.begin(), own.end());
+  Renderer renderer = make(large);
+  const auto bytes = [&] {
+    renderer.draw(scene::camera_pose(large, ""), {}, {.width = 8, .height = 4});
+    return renderer.stats().bytes_uploaded;
+  };
+  EXPECT_GT(bytes(), 100'000u);
+  scene::Scene other = large;
+  other.lights.push_back(other.lights[0]);
+  renderer.set_lamps(other);
+  EXPECT_LT(bytes(), 60'000u);
+}
+
+TEST_F(SetLamps, OfAnotherSceneOrTooManyAreRefusedAndEverythingStays) {
+  Renderer renderer = make(scene_);
+  const image::Image before = draw(renderer, scene_);
+  scene::Scene other = scene_;
+  other.instances.pop_back();
+  const std::string strange = "lamps: they are of a scene with other geometry";
+  EXPECT_EQ(message_of([&] { renderer.set_lamps(other); }), strange);
+  other = scene_, other.instances[0].node = other.instances[1].node + 1;
+  EXPECT_EQ(message_of([&] { renderer.set_lamps(other); }), strange);
+  other = scene_, other.materials.emplace_back();
+  EXPECT_EQ(message_of([&] { renderer.set_lamps(other); }), strange);
+  other = scene_, other.lights[0].node = 10'000;
+  EXPECT_NE(message_of([&] { renderer.set_lamps(other); }), "no error");
+  other = scene_;
+  scene::Light sun;
+  sun.type = scene::LightType::directional, sun.node = 0;
+  other.lights.insert(other.lights.end(), 100, sun);
+  EXPECT_THAT(message_of([&] { renderer.set_lamps(other); }), testing::HasSubstr("parallel shadow maps"));
+  EXPECT_EQ(draw(renderer, scene_).pixels, before.pixels);
+}
+
+}  // namespace
+}  // namespace ssphh::test
