@@ -172,7 +172,7 @@ TEST(RecordPlaces, AreEverywhereThatASurfelWouldSeeNone) {
 TEST(RecordPlaces, AreNearMostPatches) {
   // A point at the border of the next one's reach is told by that alone, however little it weighs.
   const SolvedScene gallery(scene::make_builtin("gallery1"));
-  const auto gather = gallery.where_needed(200, 32);
+  const auto gather = gallery.where_needed(150, 32);
   const rays::PosedWorld world(gallery.source, 0);
   const probes::SurfaceInterpolation known(gather->points(),
                                            [&](const vec3& a, const vec3& b) { return world.visible(a, b); });
@@ -183,8 +183,8 @@ TEST(RecordPlaces, AreNearMostPatches) {
     });
   };
   const std::vector<rays::SurfacePoint> patches = transport::surfel_points(gallery.network(), 4);
-  // 144 of 13,006 patches; 181 where any point within reach will do.
-  EXPECT_LT(std::ranges::count_if(patches, from_afar), 162);
+  // 106 of 13,006 patches; 303 where any point within reach will do.
+  EXPECT_LT(std::ranges::count_if(patches, from_afar), 200);
 }
 
 TEST(RecordPlaces, AreWhereLightAsksForThemInEveryPose) {
