@@ -240,7 +240,7 @@ class Preparation {
     std::ranges::sort(work.candidates, [](const Work::Candidate& a, const Work::Candidate& b) {
       return a.order < b.order || (a.order == b.order && a.point < b.point);
     });
-    for (Work::Candidate& candidate : work.candidates) {
+    for (std::size_t number = 0; Work::Candidate & candidate : work.candidates) {
       work.samples.judge(out_.points[candidate.point], spacings_[candidate.point]);
       for (std::size_t i = 0; i < work.samples.size(); ++i) {
         const SurfaceSamples::Verdict verdict = work.samples.verdict(i);
@@ -250,7 +250,7 @@ class Preparation {
           candidate.outweighed.push_back(static_cast<std::uint32_t>(i));
         }
       }
-      if (!candidate.asked.empty()) ask(candidate, work);
+      if (!candidate.asked.empty()) ask(candidate, number++, work);
     }
     std::erase_if(work.candidates, [](const Work::Candidate& c) { return c.asked.empty(); });
   }
@@ -280,32 +280,32 @@ class Preparation {
            sees_(glm::mix(from, to, last + off_sheet), to);
   }
 
-  /// Asks some samples first, then the others where those disagree. Among few, none would lie in a thin wall.
-  void ask(Work::Candidate& candidate, Work& work) const {
-    constexpr std::size_t few = 32;
-    const std::size_t count = candidate.asked.size(), step = (count + few - 1) / few;
+  /// Asks some samples first, other ones for the next candidate, then the others where those disagree.
+  void ask(Work::Candidate& candidate, std::size_t number, Work& work) const {
+    constexpr std::size_t few = 16;
+    const std::size_t count = candidate.asked.size(), step = (count + few - 1) / few, begin = number % step;
     std::size_t asked = 0, seen = 0;
     candidate.seen.assign(count, Seen::no);
     const auto look = [&](std::size_t i) {
       candidate.seen[i] = sees(work, candidate.asked[i], candidate.point);
       seen += candidate.seen[i] == Seen::yes, ++asked;
     };
-    for (std::size_t i = 0; i < count; i += step) look(i);
+    for (std::size_t i = begin; i < count; i += step) look(i);
     if (seen == asked) {
       candidate.seen.clear();
     } else if (seen > 0) {
       for (std::size_t i = 0; i < count; ++i)
-        if (i % step != 0) look(i);
+        if (i % step != begin) look(i);
     }
     if (seen == 0) return;
     const rays::SurfacePoint& point = out_.points[candidate.point];
-    const float spacing = spacings_[candidate.point];
-    work.samples.weigh(point, spacing, cover_[candidate.point]);
-    const bool tells = spacing <= most_coarser * work.finest;
+    work.samples.weigh(point, spacings_[candidate.point], cover_[candidate.point]);
+    const bool tells = spacings_[candidate.point] <= most_coarser * work.finest;
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t sample = candidate.asked[i];
+      const bool known = !candidate.seen.empty() || i % step == begin;  // else it may lie in a thin wall
       if (candidate.seen.empty() || candidate.seen[i] == Seen::yes)
-        work.samples.count_in(sample, work.samples.side(sample, point.normal), tells);
+        work.samples.count_in(sample, work.samples.side(sample, point.normal), tells && known);
     }
   }
 
