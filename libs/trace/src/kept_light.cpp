@@ -49,9 +49,9 @@ void PosedLight::add_by_normal(const GroupEmitter& emitter, const Receiver& at, 
   SumByNormal sum(at.normal);
   vec3 factor(1 / static_cast<float>(count));
   if (emitter.emitter.kind == shading::EmitterKind::environment) {
-    sample_sky(emitter, at, seed, count, task,
-               [&](const vec3& wi, const vec3& irradiance) { sum.add(wi, irradiance); });
-    sum.add_to(light, factor);
+    sample_kept_sky(emitter, at, seed, count, task,
+                    [&](const vec3& wi, const vec3& irradiance) { sum.add(wi, irradiance); });
+    sum.add_to(light, vec3(1));
     return;
   }
   const auto view = lights_.view_mesh(emitter.index, at.position, at.normal);

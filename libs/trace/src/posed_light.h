@@ -92,6 +92,10 @@ class PosedLight final : public rays::DirectLight {
   template <class Add>
   void sample_sky(const GroupEmitter& light, const Receiver& at, std::uint64_t seed, int count, RayTask& task,
                   const Add& add) const;
+  /// Likewise of about `count` samples, more at the edges of what hides the sky; their sum is its irradiance.
+  template <class Add>
+  void sample_kept_sky(const GroupEmitter& light, const Receiver& at, std::uint64_t seed, int count,
+                       RayTask& task, const Add& add) const;
   const std::vector<GroupEmitter>& emitters_of(int group) const;
   void list_emitters();
 

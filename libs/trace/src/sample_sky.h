@@ -1,9 +1,12 @@
 #pragma once
 /// How the irradiance of a sky is sampled, for light that is needed now and for light that is kept.
 
+#include <vector>
+
 #include <ssphh/core/random.h>
 #include <ssphh/core/sphere.h>
 
+#include "edge_cells.h"
 #include "posed_light.h"
 
 namespace ssphh::trace {
@@ -42,6 +45,60 @@ void PosedLight::sample_sky(const GroupEmitter& light, const Receiver& at, std::
       radiance = sky->radiance, sky_pdf = sky->pdf;
     }
     add(wi, through * radiance * (cosine / (share * cosine / pi + (1 - share) * sky_pdf)));
+  }
+}
+
+template <class Add>
+void PosedLight::sample_kept_sky(const GroupEmitter& light, const Receiver& at, std::uint64_t seed, int count,
+                                 RayTask& task, const Add& add) const {
+  // Where an image is so many times as bright as its mean, the rest of it is drawn by its brightness.
+  constexpr float hot_pdf = 32 / (4 * pi);
+  constexpr std::uint32_t more_at_edges = 16;
+  const int side = std::max(1, static_cast<int>(std::sqrt(static_cast<float>(count))));
+  const Frame frame = Frame::around(at.normal);
+  EdgeCells cells(side);
+  struct Look {
+    int cell;
+    vec3 wi, through;
+  };
+  std::vector<Look> looks;
+  const auto look_at = [&](int cell, std::uint32_t times) {
+    const vec2 corner(static_cast<float>(cell % side), static_cast<float>(cell / side));
+    for (std::uint32_t k = 0; k < times; ++k) {
+      SampleSequence sequence(hash_combine(seed, static_cast<std::uint64_t>(cell)), cells.looks(cell));
+      const vec2 u = (corner + sequence.next2()) / static_cast<float>(side);
+      const vec3 wi = frame.to_world(sample_cosine_hemisphere(u));
+      const vec3 through = geometry_.transmittance({at.start, wi}, 0, task);
+      const bool sees = max_component(through) > 0;
+      cells.add(cell, sees);
+      if (sees) looks.push_back({cell, wi, through});
+    }
+  };
+  for (int cell = 0; cell < cells.count(); ++cell) look_at(cell, 1);
+  for (int cell = 0; cell < cells.count(); ++cell)
+    if (cells.at_edge(cell)) look_at(cell, more_at_edges);
+  std::vector<int> beside;
+  for (int cell = 0; cell < cells.count(); ++cell)
+    if (cells.looks(cell) == 1 && cells.beside_divided(cell)) beside.push_back(cell);
+  for (const int cell : beside) look_at(cell, more_at_edges);
+  for (const Look& l : looks) {
+    const auto sky = lights_.distant_radiance(light.index, l.wi);
+    const float share = pi / (static_cast<float>(cells.count()) * static_cast<float>(cells.looks(l.cell)));
+    add(l.wi, (share * std::min(1.0f, hot_pdf / sky->pdf)) * l.through * sky->radiance);
+  }
+
+  if (data_->scene.environment->equirect.empty()) return;
+  const int drawn = (count + 1) / 2;
+  for (int s = 0; s < drawn; ++s) {
+    const vec2 u = SampleSequence(mix64(seed), static_cast<std::uint32_t>(s)).next2();
+    const auto sample = lights_.sample_emitter(light.index, at.position, u);
+    if (!sample || !(sample->pdf > hot_pdf)) continue;
+    const float cosine = glm::dot(sample->wi, at.normal);
+    if (!(cosine > 0)) continue;
+    const vec3 through = geometry_.transmittance({at.start, sample->wi}, 0, task);
+    add(sample->wi,
+        through * sample->radiance *
+            (cosine * (1 / sample->pdf - hot_pdf / (sample->pdf * sample->pdf)) / static_cast<float>(drawn)));
   }
 }
 

@@ -62,6 +62,43 @@ TEST(KeptLight, BesideAWallIsHalfASkyAndTurnsAwayFromIt) {
   EXPECT_LT(max_component(glm::abs(light[1])), 1e-5f * light[0].z) << "the tangent plane has no height";
 }
 
+TEST(KeptLight, OfASkyBehindASmallWindowHasLittleNoise) {
+  // A window in a wall at x = 0, from floor to ceiling 0.4 m wide: of a strip as high as the room each point
+  // sees a polygon; its irradiance by Lambert's formula.
+  const vec3 radiance(1, 2, 4);
+  scene::Scene scene = floor_under_sky(radiance);
+  const auto wall = [&](float from, float to) {
+    add_object(scene, scene::make_quad({0, -1, to}, {0, 1001, 0}, {0, 0, from - to}), lambertian(vec3(0)),
+               "wall");
+  };
+  wall(-1000, -0.2f), wall(0.2f, 1000);
+  add_object(scene, scene::make_quad({0, 1.5f, -1000}, {0, 1000, 0}, {0, 0, 2000}), lambertian(vec3(0)),
+             "lintel");
+  add_object(scene, scene::make_quad({-1, 3, -1000}, {1001, 0, 0}, {0, 0, 2000}), lambertian(vec3(0)),
+             "ceiling");
+  add_object(scene, scene::make_quad({0, -1, -0.2f}, {0, 2, 0}, {0, 0, 0.4f}), lambertian(vec3(0)), "sill");
+  const KeptLight sky(std::move(scene));
+  double square = 0, sum = 0;
+  constexpr int count = 64;
+  for (int i = 0; i < count; ++i) {
+    const vec3 x(1.5f + 0.02f * static_cast<float>(i), 0, 0.03f * static_cast<float>(i) - 1);
+    const std::array<vec3, 4> corners = {vec3(0, 1, -0.2f), vec3(0, 1, 0.2f), vec3(0, 1.5f, 0.2f),
+                                         vec3(0, 1.5f, -0.2f)};
+    float lambert = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const vec3 a = glm::normalize(corners[k] - x), b = glm::normalize(corners[(k + 1) % 4] - x);
+      lambert += std::acos(glm::dot(a, b)) * glm::normalize(glm::cross(a, b)).y;
+    }
+    const vec3 truth = 0.5f * std::abs(lambert) * radiance, found = sky.at({x})[3];
+    EXPECT_NEAR(found.x / truth.x, found.z / truth.z, 1e-4f);
+    sum += found.y / truth.y;
+    square += static_cast<double>((found.y / truth.y - 1) * (found.y / truth.y - 1));
+  }
+  // The window takes half a per cent of the hemisphere, five of 1024 directions, which alone leave 24 %.
+  EXPECT_NEAR(sum / count, 1, 0.02);
+  EXPECT_LT(std::sqrt(square / count), 0.07);
+}
+
 TEST(KeptLight, OfAPointFollowsTheCosine) {
   scene::Scene scene;
   add_floor(scene, lambertian(vec3(0.5f)));
