@@ -99,8 +99,8 @@ class DirectLight {
   /// world-space ray whose nearest surface is at `distance`, infinite if it escapes: darkness there is
   /// darkness at any distance.
   virtual vec3 emitted(int /*group*/, const RayQuery& /*ray*/, float /*distance*/) const { return vec3(0); }
-  /// The group's light at a surface point, from so many samples of each of its emitters, the same at every
-  /// call: for light that is kept, where noise would stay.
+  /// The group's light at a surface point, from so many samples of each of its emitters, more where they are
+  /// partly hidden, the same at every call: for light that is kept, where noise would stay.
   virtual IrradianceByNormal irradiance_by_normal(int /*group*/, const SurfacePoint& /*point*/,
                                                   int /*samples*/) const {
     refuse("direct light", "it cannot tell irradiance by normal");
