@@ -282,7 +282,7 @@ class Preparation {
 
   /// Asks some samples first, other ones for the next candidate, then the others where those disagree.
   void ask(Work::Candidate& candidate, std::size_t number, Work& work) const {
-    constexpr std::size_t few = 16;
+    constexpr std::size_t few = 32;
     const std::size_t count = candidate.asked.size(), step = (count + few - 1) / few, begin = number % step;
     std::size_t asked = 0, seen = 0;
     candidate.seen.assign(count, Seen::no);

@@ -51,8 +51,17 @@ void PosedLight::sample_sky(const GroupEmitter& light, const Receiver& at, std::
 template <class Add>
 void PosedLight::sample_kept_sky(const GroupEmitter& light, const Receiver& at, std::uint64_t seed, int count,
                                  RayTask& task, const Add& add) const {
-  // Where an image is so many times as bright as its mean, the rest of it is drawn by its brightness.
+  // An image with a sun, so many times as bright as its mean, is sampled by that as well
   constexpr float hot_pdf = 32 / (4 * pi);
+  constexpr std::uint32_t draws = 64;
+  for (std::uint32_t s = 0; s < draws; ++s) {
+    const auto drawn = lights_.sample_emitter(light.index, at.position, SampleSequence(0, s).next2());
+    if (!drawn || !(drawn->pdf > hot_pdf)) continue;
+    sample_sky(light, at, seed, count, task, [&](const vec3& wi, const vec3& irradiance) {
+      add(wi, irradiance / static_cast<float>(count));
+    });
+    return;
+  }
   constexpr std::uint32_t more_at_edges = 16;
   const int side = std::max(1, static_cast<int>(std::sqrt(static_cast<float>(count))));
   const Frame frame = Frame::around(at.normal);
@@ -84,21 +93,7 @@ void PosedLight::sample_kept_sky(const GroupEmitter& light, const Receiver& at, 
   for (const Look& l : looks) {
     const auto sky = lights_.distant_radiance(light.index, l.wi);
     const float share = pi / (static_cast<float>(cells.count()) * static_cast<float>(cells.looks(l.cell)));
-    add(l.wi, (share * std::min(1.0f, hot_pdf / sky->pdf)) * l.through * sky->radiance);
-  }
-
-  if (data_->scene.environment->equirect.empty()) return;
-  const int drawn = (count + 1) / 2;
-  for (int s = 0; s < drawn; ++s) {
-    const vec2 u = SampleSequence(mix64(seed), static_cast<std::uint32_t>(s)).next2();
-    const auto sample = lights_.sample_emitter(light.index, at.position, u);
-    if (!sample || !(sample->pdf > hot_pdf)) continue;
-    const float cosine = glm::dot(sample->wi, at.normal);
-    if (!(cosine > 0)) continue;
-    const vec3 through = geometry_.transmittance({at.start, sample->wi}, 0, task);
-    add(sample->wi,
-        through * sample->radiance *
-            (cosine * (1 / sample->pdf - hot_pdf / (sample->pdf * sample->pdf)) / static_cast<float>(drawn)));
+    add(l.wi, share * l.through * sky->radiance);
   }
 }
 

@@ -99,6 +99,29 @@ TEST(KeptLight, OfASkyBehindASmallWindowHasLittleNoise) {
   EXPECT_LT(std::sqrt(square / count), 0.07);
 }
 
+TEST(KeptLight, OfAnImageWithASunEqualsLightThatIsNotKept) {
+  // What is thousands of times as bright as the mean is drawn by the image, the rest by the hemisphere; half
+  // of both lies behind a shelf.
+  scene::Scene scene;
+  add_floor(scene, lambertian(vec3(0.5f)));
+  add_object(scene, scene::make_quad({0.2f, 1, -50}, {50, 0, 0}, {0, 0, 100}), lambertian(vec3(0)), "shelf");
+  scene::Environment sky;
+  sky.equirect = image::Image(64, 32, 3);
+  for (int y = 0; y < 32; ++y)
+    for (int x = 0; x < 64; ++x)
+      for (int c = 0; c < 3; ++c) sky.equirect.at(x, y)[c] = static_cast<float>(1 + c);
+  for (const int x : {5, 21, 37, 53})
+    for (int c = 0; c < 3; ++c) sky.equirect.at(x, 6)[c] = 9000.0f / static_cast<float>(1 + c);
+  scene.environment = sky;
+  const trace::TransportScene exact(scene, {.light_samples = 1, .environment_samples = 1 << 17});
+  const auto light = exact.direct_light(exact.lights(0), std::vector<mat4>(1, mat4(1)));
+  const KeptLight kept(scene);
+  const std::vector<rays::SurfacePoint> points = {{vec3(0)}, {vec3(0.4f, 0, 0.4f)}, {vec3(-3, 0, 2)}};
+  std::vector<vec3> truth(points.size());
+  light->irradiance(0, points, truth);
+  for (std::size_t p = 0; p < points.size(); ++p) expect_near(kept.at(points[p])[3], truth[p], 0.05f);
+}
+
 TEST(KeptLight, OfAPointFollowsTheCosine) {
   scene::Scene scene;
   add_floor(scene, lambertian(vec3(0.5f)));
