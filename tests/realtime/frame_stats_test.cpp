@@ -200,12 +200,14 @@ TEST_F(FrameStatsTest, FrameWithoutAWordShowsAllLightAtEveryPixel) {
 }
 
 TEST_F(FrameStatsTest, RendererWithoutAWordHasTheSizesThatItsManualTells) {
-  const auto& [directory, lamp, area, sun, probes, voxels, lights, area_samples, sun_samples, environment,
-               maps] = realtime::RendererParams{};
+  const auto& [directory, lamp, area, sun, suns, sky, probes, voxels, lights, area_samples, sun_samples,
+               environment, maps] = realtime::RendererParams{};
   EXPECT_TRUE(directory.empty());
   EXPECT_EQ(lamp, 1024);
   EXPECT_EQ(area, 256);
-  EXPECT_EQ(sun, 1024);
+  EXPECT_EQ(sun, 2048);
+  EXPECT_EQ(suns, std::size_t{192} << 20);
+  EXPECT_EQ(sky, 1024);
   EXPECT_EQ(probes, std::size_t{64} << 20);
   EXPECT_EQ(voxels, std::size_t{2} << 30);
   EXPECT_EQ(lights, std::size_t{256} << 20);

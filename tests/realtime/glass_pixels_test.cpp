@@ -48,7 +48,9 @@ scene::Scene before_a_wall(const std::vector<scene::Material>& glass) {
 class GlassPixels : public WithGl {
  protected:
   image::Image draw(const scene::Scene& scene) {
-    Renderer renderer(gl(), scene, {.light_map_size = 128, .area_map_size = 128, .sun_map_size = 128});
+    Renderer renderer(
+        gl(), scene,
+        {.light_map_size = 128, .area_map_size = 128, .sun_map_size = 128, .environment_map_size = 128});
     renderer.draw(scene::camera_pose(scene, ""), {},
                   {.width = glass_size.width, .height = glass_size.height});
     return renderer.read_back();

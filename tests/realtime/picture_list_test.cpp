@@ -26,6 +26,7 @@ using realtime::View;
 const realtime::RendererParams quick{.light_map_size = 128,
                                      .area_map_size = 48,
                                      .sun_map_size = 96,
+                                     .environment_map_size = 96,
                                      .probe_map_bytes = std::size_t{2} << 20,
                                      .virtual_light_map_bytes = std::size_t{4} << 20,
                                      .area_samples = 4,

@@ -14,7 +14,8 @@
 namespace ssphh::test {
 
 /// To be quick where no shadow's edge is compared.
-inline const realtime::RendererParams small_maps{.light_map_size = 256, .sun_map_size = 256};
+inline const realtime::RendererParams small_maps{
+    .light_map_size = 256, .sun_map_size = 256, .environment_map_size = 256};
 
 /// Probes at the scene's SPHLs with made-up light of degree 4, positive and different in every direction: a
 /// lookup that is wrong anywhere shows.

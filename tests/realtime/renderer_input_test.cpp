@@ -79,7 +79,7 @@ TEST_F(RendererInput, LightsThatNeedMoreMapsThanThereAreAreRefused) {
   scene::Light sun = scene_.lights[0];
   sun.type = scene::LightType::directional;
   scene_.lights.assign(32, sun);
-  const realtime::RendererParams small{.sun_map_size = 16};
+  const realtime::RendererParams small{.sun_map_size = 16, .environment_map_size = 16};
   EXPECT_NO_THROW(Renderer(gl(), scene_, small)) << "six cascades each";
   scene_.lights.push_back(sun);
   EXPECT_EQ(message_of([&] { Renderer(gl(), scene_, small); }),

@@ -41,9 +41,12 @@ class Seen : public WithGl {
  protected:
   image::Image draw(scene::Scene scene, const FrameSettings& settings = {}) {
     scene::validate(scene);
-    Renderer renderer(
-        gl(), scene,
-        {.light_map_size = 32, .area_map_size = 32, .sun_map_size = 32, .environment_samples = 1});
+    Renderer renderer(gl(), scene,
+                      {.light_map_size = 32,
+                       .area_map_size = 32,
+                       .sun_map_size = 32,
+                       .environment_map_size = 32,
+                       .environment_samples = 1});
     renderer.draw(scene::camera_pose(scene, ""), settings,
                   {.width = seen_size.width, .height = seen_size.height});
     return renderer.read_back();

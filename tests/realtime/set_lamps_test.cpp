@@ -52,9 +52,12 @@ class SetLamps : public WithGl {
     return renderer.read_back();
   }
   Renderer make(const scene::Scene& scene) {
-    return Renderer(
-        gl(), scene,
-        {.light_map_size = 64, .area_map_size = 16, .sun_map_size = 64, .environment_samples = 4});
+    return Renderer(gl(), scene,
+                    {.light_map_size = 64,
+                     .area_map_size = 16,
+                     .sun_map_size = 64,
+                     .environment_map_size = 64,
+                     .environment_samples = 4});
   }
 
   scene::Scene scene_;

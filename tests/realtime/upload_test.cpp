@@ -21,7 +21,8 @@ using realtime::RendererParams;
 /// Of blocks as shaders read them.
 constexpr std::uint64_t frame_block = 13 * 16, material_block = 16 * 16, instance_block = 8 * 16,
                         emitter_block = (6 + 64 * 3 + 121) * 16;
-const RendererParams small{.light_map_size = 16, .area_map_size = 16, .sun_map_size = 16};
+const RendererParams small{
+    .light_map_size = 16, .area_map_size = 16, .sun_map_size = 16, .environment_map_size = 16};
 
 class Uploads : public WithGl {
  protected:
@@ -203,7 +204,7 @@ TEST_F(Uploads, MetalUnderAnEvenSkyReflectsItsAlbedoOfIt) {
   const scene::CameraPose pose = scene::camera_pose(s, "");
   const trace::TransportScene source(s);
   const PixelPoints points(source, pose, size);
-  Renderer renderer(gl(), s, {.sun_map_size = 64, .environment_samples = 8});
+  Renderer renderer(gl(), s, {.sun_map_size = 64, .environment_map_size = 64, .environment_samples = 8});
   for (const float roughness : {0.05f, 0.33f, 0.7f}) {
     s.materials[0].specular_roughness = roughness;
     renderer.set_material(0, s.materials[0]);

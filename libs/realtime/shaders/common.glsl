@@ -8,7 +8,7 @@ layout(std140, binding = BINDING_FRAME_BLOCK) uniform FrameBlock {
   vec4 grid_origin;      // w: cell size
   vec4 tone;             // exposure factor, curve, 1/gamma or 0, probe spacing
   vec4 environment;      // cos, sin of its rotation; w: view
-  ivec4 maps;            // texels of a face: lights, areas, probes; of a sun map
+  ivec4 maps;            // texels of a face: lights, areas, probes
   ivec4 map_tiles;       // log2 of tiles in a row, likewise
   vec4 map_near;         // near plane of the cube maps, likewise
   vec4 extra;            // occlusion radius, 0 off; indirect scale, tolerance

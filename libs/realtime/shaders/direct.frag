@@ -25,7 +25,7 @@
 // What a map tells for sure stands so many texels away.
 const float CONTACT_TEXELS = 4;
 float sun_contact(Surface s, vec3 wi, SunMap map) {
-  return contact_visibility(s, wi, CONTACT_TEXELS * 2 / (float(frame.maps.w - 2) * map.right.w));
+  return contact_visibility(s, wi, CONTACT_TEXELS * 2 / (float(emitter.count.z - 2) * map.right.w));
 }
 #endif
 

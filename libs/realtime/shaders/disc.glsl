@@ -46,13 +46,13 @@ Spot spot_of(int first, Receiver r, float radius) {
     map = max(away.x, away.y) < 0.98 ? finer : map;
   }
   Spot s;
-  float inner = float(frame.maps.w - 2);
+  float inner = float(emitter.count.z - 2);
   s.map = map;
   s.width = 2 / (inner * map.z);
   s.margin = shadow_margin(r.facing, s.width, r.range);
   float lift = grazing_lift(r.facing, s.width);
   s.aside = lift / s.width * r.across;
-  s.texel = 0.5 * (r.place - map.xy) * map.z * inner + 0.5 * float(frame.maps.w) + s.aside;
+  s.texel = 0.5 * (r.place - map.xy) * map.z * inner + 0.5 * float(emitter.count.z) + s.aside;
   s.here = r.here + lift * r.facing / r.range;
   s.below = lift / r.facing;
   return s;
@@ -63,9 +63,9 @@ Spot spot_of(int first, Receiver r, float radius) {
 float lit_at(Receiver r, Spot s, vec2 off, float height) {
   vec2 slope = r.slope * (s.width / r.range);
   float margin = s.margin / r.range, own = r.here + height / r.range;
-  return min(compare_tile(parallel_maps, frame.maps.w, frame.map_tiles.w, int(s.map.w), s.texel + off,
+  return min(compare_tile(parallel_maps, emitter.count.z, emitter.count.w, int(s.map.w), s.texel + off,
                           s.here + height / r.range, s.here + (height - s.below) / r.range, slope, margin),
-             compare_tile(parallel_maps, frame.maps.w, frame.map_tiles.w, int(s.map.w), s.texel - s.aside + off, own, own,
+             compare_tile(parallel_maps, emitter.count.z, emitter.count.w, int(s.map.w), s.texel - s.aside + off, own, own,
                           slope, margin));
 }
 
@@ -123,13 +123,13 @@ float narrowed_further(Receiver r, Spot s, float tangent, float radius) {
 // was met. Denser toward the middle, for what is low hides as much there.
 float blocker_height(Receiver r, Spot s, float radius) {
   float heights = 0, shares = 0;
-  ivec3 place = tile_place(int(s.map.w), frame.map_tiles.w);
+  ivec3 place = tile_place(int(s.map.w), emitter.count.w);
   vec2 to = vec2(1, 0);
   for (int i = 0; i < BLOCKER_TAPS; ++i, to = GOLDEN_TURN * to) {
     float share = (float(i) + 0.5) / float(BLOCKER_TAPS);
     ivec2 at = ivec2(s.texel + radius * share / s.width * to);
-    ivec2 inside = clamp(at, 0, frame.maps.w - 1);
-    float depth = texelFetch(parallel_maps, ivec3(place.xy * frame.maps.w + inside, place.z), 0).x;
+    ivec2 inside = clamp(at, 0, emitter.count.z - 1);
+    float depth = texelFetch(parallel_maps, ivec3(place.xy * emitter.count.z + inside, place.z), 0).x;
     float height = (depth - s.here) * r.range;
     float plane = max(dot(r.slope, vec2(at) + 0.5 - s.texel) * s.width - s.below, 0.0);
     float hides = height > plane + s.margin ? share / (height * height) : 0;

@@ -14,7 +14,9 @@ layout(std140, binding = BINDING_EMITTER_BLOCK) uniform EmitterBlock {
   vec4 cone;   // a spot's axis; w: scale, 0 none
   vec4 more;   // cone offset, or sine of the radius of a disc's parts; both sides emit (mesh); area [m2]
   ivec4 items; // kind; map or first map; samples; probe of an SPHL, or log2 of tiles in a row (bounds of a disc's maps)
-  ivec4 count; // triangles with a closed form, or levels of the bounds of a disc's maps; 1 + layer of a lamp's profile, 0 none
+  // Triangles with a closed form, or levels of the bounds of a disc's maps; 1 + layer of a lamp's profile, 0 none; texels of
+  // a parallel map, log2 of such in a row
+  ivec4 count;
   AreaSample samples[MAX_SAMPLES];  // places of the first three: axes of a lobe or profile
   // Of triangles; coefficients of an SPHL's light; cascades of a disc's parts: centre across the light [m], 1 / half
   // width, tile
@@ -80,7 +82,7 @@ float grazing_lift(float facing, float texel) { return GRAZING_LIFT * texel * (1
 float shadow_margin(float facing, float texel, float range) { return mix(0.25, 1.5, facing) * texel + 2.5e-7 * range; }
 
 float parallel_visibility(SunMap map, vec3 x, vec3 n) {
-  float inner = float(frame.maps.w) - 2;
+  float inner = float(emitter.count.z) - 2;
   float width = 2 / (inner * map.right.w), facing = max(-dot(n, map.forward.xyz), 1e-3);
   float lift = grazing_lift(facing, width);
   vec2 across = place_on(map, x);
@@ -88,13 +90,13 @@ float parallel_visibility(SunMap map, vec3 x, vec3 n) {
   float here = 1 - dot(x - map.origin.xyz, map.forward.xyz) * map.origin.w;
   // dz along the map's axes on the receiver's plane, in metres, then in depth per texel
   vec2 slope = -vec2(dot(n, map.right.xyz), dot(n, map.up.xyz)) / facing * (width * map.origin.w);
-  vec2 texel = 0.5 * across * inner + 0.5 * float(frame.maps.w);
+  vec2 texel = 0.5 * across * inner + 0.5 * float(emitter.count.z);
   vec2 aside = lift / width * vec2(dot(n, map.right.xyz), dot(n, map.up.xyz));
   float above = here + lift * facing * map.origin.w, plane = above - lift / facing * map.origin.w;
   float margin = shadow_margin(facing, width, 1 / map.origin.w) * map.origin.w;
   int tile = int(map.forward.w);
-  return min(compare_tile(parallel_maps, frame.maps.w, frame.map_tiles.w, tile, texel, here, here, slope, margin),
-             compare_tile(parallel_maps, frame.maps.w, frame.map_tiles.w, tile, texel + aside, above, plane, slope, margin));
+  return min(compare_tile(parallel_maps, emitter.count.z, emitter.count.w, tile, texel, here, here, slope, margin),
+             compare_tile(parallel_maps, emitter.count.z, emitter.count.w, tile, texel + aside, above, plane, slope, margin));
 }
 
 // What glass leaves of light on its way to x.
@@ -111,8 +113,8 @@ vec3 area_filter(int slot, vec3 light, vec3 x) {
 vec3 parallel_filter(SunMap map, vec3 x) {
   vec2 plane = place_on(map, x);
   if (any(greaterThan(abs(plane), vec2(1)))) return vec3(1);
-  float size = float(frame.maps.w);
-  return tile_filter(parallel_glass, frame.maps.w, frame.map_tiles.w, int(map.forward.w),
+  float size = float(emitter.count.z);
+  return tile_filter(parallel_glass, emitter.count.z, emitter.count.w, int(map.forward.w),
                      0.5 * plane * (size - 2) + 0.5 * size);
 }
 #else

@@ -25,10 +25,9 @@ FrameBlock frame_block(const Eye& eye, const FrameSettings& settings, const Fram
                 std::isfinite(probes.spacing()) ? probes.spacing() : 1e30f);
   const float turn = lights.environment_rotation();
   b.environment = vec4(std::cos(turn), std::sin(turn), 0, static_cast<float>(settings.view));
-  b.maps = ivec4(lights.lamp_maps().size(), lights.area_maps().size(), probes.maps().size(),
-                 lights.parallel_maps().size());
+  b.maps = ivec4(lights.lamp_maps().size(), lights.area_maps().size(), probes.maps().size(), 0);
   b.map_tiles = ivec4(lights.lamp_maps().layout().columns_log2, lights.area_maps().layout().columns_log2,
-                      probes.maps().layout().columns_log2, lights.parallel_maps().layout().columns_log2);
+                      probes.maps().layout().columns_log2, 0);
   b.map_near = vec4(lights.near_plane(), lights.near_plane(), probes.near_plane(), 0);
   b.shift = vec4(eye.shift, 0, 0);
   b.extra = vec4(settings.ambient_occlusion ? settings.occlusion_radius : 0,

@@ -18,8 +18,8 @@ void Renderer::Data::fullscreen(gl::Program& program, unsigned framebuffer, cons
 
 void Renderer::Data::prepare_lights() {
   const float aspect = static_cast<float>(frame_target.width) / static_cast<float>(frame_target.height);
-  const DepthSpread spread = lights.any_sun() ? view_depths.measure(shaders, no_vertices) : DepthSpread{};
-  lights.prepare(frame_camera, aspect, spread, scene.bounds(), counters);
+  const Seen seen = lights.any_sun() ? seen_places.measure(shaders, no_vertices) : Seen{};
+  lights.prepare(frame_camera, aspect, seen, scene.bounds(), counters);
 }
 
 void Renderer::Data::draw_shadows() {

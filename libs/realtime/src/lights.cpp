@@ -39,9 +39,9 @@ Lights::Lights(const scene::Scene& scene, float time, const std::vector<mat4>& w
   add_lights(scene, time, world, groups, most_sun_parts(scene, params));
   add_meshes(scene, world, groups, std::clamp(params.area_samples, 1, max_area_samples));
   add_environment(scene, groups, std::clamp(params.environment_samples, 1, max_area_samples), before);
-  if (parallel_slots_ > max_parallel_maps)
+  if (sun_slots_ + sky_slots_ > max_parallel_maps)
     throw Error("real-time renderer", fmt::format("the lights need {} parallel shadow maps, {} is the most",
-                                                  parallel_slots_, max_parallel_maps));
+                                                  sun_slots_ + sky_slots_, max_parallel_maps));
   for (const GpuEmitter& e : emitters_) {
     if (e.items.x == static_cast<int>(EmitterKind::disc)) bounded_ = e.items.y + sun_cascades * e.items.z;
   }
@@ -49,11 +49,15 @@ Lights::Lights(const scene::Scene& scene, float time, const std::vector<mat4>& w
     lamps_ = MapAtlas(params.light_map_size, std::max(6 * lamp_slots_, 1));
   if (!before || !same_area_maps(*before))
     areas_ = MapAtlas(params.area_map_size, std::max(6 * area_slots_, 1));
-  if (!before || !same_parallel_maps(*before)) {
-    parallel_ = MapAtlas(params.sun_map_size, std::max(parallel_slots_, 1));
-    if (bounded_ > 0) bounds_.emplace(params.sun_map_size, bounded_);
+  if (!before || !same_sun_maps(*before)) {
+    int size = params.sun_map_size;
+    while (size > 1 && MapAtlas::bytes_of(size, sun_slots_) > params.sun_map_bytes) size /= 2;
+    suns_ = MapAtlas(sun_slots_ > 0 ? size : 1, std::max(sun_slots_, 1));
+    if (bounded_ > 0) bounds_.emplace(size, bounded_);
   }
-  parallel_key_.resize(static_cast<std::size_t>(parallel_slots_));
+  if (!before || !same_sky_maps(*before))
+    skies_ = MapAtlas(sky_slots_ > 0 ? params.environment_map_size : 1, std::max(sky_slots_, 1));
+  sun_key_.resize(static_cast<std::size_t>(sun_slots_));
   scene_emitters_ = static_cast<int>(emitters_.size());
   distant_buffer_ = gl::Buffer(sizeof(DistantBlock));
   if (!before) place_all(world);
@@ -80,10 +84,9 @@ void Lights::add_lights(const scene::Scene& scene, float time, const std::vector
       const bool disc = light.angular_radius > 0;
       source.parts = disc_parts(light.angular_radius, most_parts);
       const auto parts = static_cast<int>(source.parts.size());
-      e.items =
-          ivec4(static_cast<int>(disc ? EmitterKind::disc : EmitterKind::sun), parallel_slots_, parts, 0);
-      source.first_map = parallel_slots_;
-      parallel_slots_ += sun_cascades * parts;
+      e.items = ivec4(static_cast<int>(disc ? EmitterKind::disc : EmitterKind::sun), sun_slots_, parts, 0);
+      source.first_map = sun_slots_;
+      sun_slots_ += sun_cascades * parts;
     } else {
       const bool lobe = light.type == scene::LightType::sphl;
       e.items = ivec4(static_cast<int>(lobe ? EmitterKind::lobe : EmitterKind::point), lamp_slots_, 1, 0);
@@ -142,11 +145,11 @@ void Lights::add_environment(const scene::Scene& scene, const std::vector<std::s
   Source source;
   source.emitter = static_cast<int>(emitters_.size());
   source.group = scene::light_group_index(groups, scene::light_group(own));
-  source.radiance = vec3(1);  // its colour is in the samples and the image
-  source.first_map = parallel_slots_;
+  source.radiance = vec3(1);      // its colour is in the samples and the image
+  source.first_map = sun_slots_;  // after those of all suns
   GpuEmitter e;
   e.items = ivec4(static_cast<int>(EmitterKind::environment), 0, 0, 0);
-  parallel_slots_ += samples;
+  sky_slots_ = samples;
   emitters_.push_back(e);
   sources_.push_back(std::move(source));
   if (!same_sky_) find_environment();
@@ -197,9 +200,9 @@ void Lights::want_maps(const Source& source) {
       return lamps_.want(6 * source.first_map, 6, source.lights());
     case EmitterKind::sun:
     case EmitterKind::disc:
-      return parallel_.want(source.first_map, sun_cascades * items.z, source.lights());
+      return suns_.want(source.first_map, sun_cascades * items.z, source.lights());
     case EmitterKind::environment:
-      return parallel_.want(source.first_map, items.z, source.lights());
+      return skies_.want(0, items.z, source.lights());
     case EmitterKind::sphere:
     case EmitterKind::mesh:
       return areas_.want(6 * source.first_map, 6 * items.z, source.lights());
@@ -225,9 +228,7 @@ void Lights::clear_emissions() {
 }
 
 void Lights::invalidate(const std::vector<scene::Bounds>& moved) {
-  lamps_.invalidate(moved);
-  areas_.invalidate(moved);
-  parallel_.invalidate(moved);
+  for (MapAtlas* atlas : {&lamps_, &areas_, &suns_, &skies_}) atlas->invalidate(moved);
 }
 
 void Lights::place(Source& source, const mat4& world) {
@@ -312,7 +313,7 @@ void Lights::set_colors() {
   }
 }
 
-void Lights::prepare(const scene::CameraPose& camera, float aspect, const DepthSpread& seen,
+void Lights::prepare(const scene::CameraPose& camera, float aspect, const Seen& seen,
                      const scene::Bounds& bounds, FrameCounters& counters) {
   for (const Source& source : sources_) {
     if (is_sun(source)) place_sun(source, camera, aspect, seen, bounds);
@@ -363,6 +364,9 @@ void Lights::list_lit() {
 void Lights::bind_emitter(const Lit& lit) const {
   emitter_buffer_.bind_uniform_range(
       binding::emitter_block, static_cast<std::size_t>(lit.emitter) * emitter_stride, sizeof(GpuEmitter));
+  const MapAtlas& parallel = lit.kind == EmitterKind::environment ? skies_ : suns_;
+  parallel.texture().bind(unit::parallel_maps);
+  if (parallel.glass().id()) parallel.glass().bind(unit::parallel_glass);
 }
 
 int Lights::update_maps(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, gl::Program* glass,
@@ -370,30 +374,29 @@ int Lights::update_maps(const GpuScene& scene, gl::Program& opaque, gl::Program&
   int drawn = lamps_.update(scene, opaque, alpha, most, waiting, counters, glass);
   drawn += areas_.update(scene, opaque, alpha, most - drawn, waiting, counters, glass);
   // The sun's maps follow the view: they cannot wait
-  drawn += parallel_.update(scene, opaque, alpha, parallel_.count(), waiting, counters, glass);
+  for (MapAtlas* atlas : {&suns_, &skies_})
+    drawn += atlas->update(scene, opaque, alpha, atlas->count(), waiting, counters, glass);
   return drawn;
 }
 
 void Lights::invalidate_all() {
-  for (MapAtlas* atlas : {&lamps_, &areas_, &parallel_}) atlas->invalidate_all();
+  for (MapAtlas* atlas : {&lamps_, &areas_, &suns_, &skies_}) atlas->invalidate_all();
 }
 
 void Lights::bind() const {
   distant_buffer_.bind_uniform(binding::distant_block);
   lamps_.texture().bind(unit::light_maps);
   areas_.texture().bind(unit::area_maps);
-  parallel_.texture().bind(unit::parallel_maps);
   profiles_.bind();
   if (bounds_) bounds_->bind();
   if (!lamps_.glass().id()) return;
   lamps_.glass().bind(unit::light_glass);
   areas_.glass().bind(unit::area_glass);
-  parallel_.glass().bind(unit::parallel_glass);
 }
 
 std::size_t Lights::bytes() const {
-  return lamps_.bytes() + areas_.bytes() + parallel_.bytes() + profiles_.bytes() + emitter_buffer_.size() +
-         (bounds_ ? bounds_->bytes() : 0) + distant_buffer_.size();
+  return lamps_.bytes() + areas_.bytes() + suns_.bytes() + skies_.bytes() + profiles_.bytes() +
+         emitter_buffer_.size() + (bounds_ ? bounds_->bytes() : 0) + distant_buffer_.size();
 }
 
 }  // namespace ssphh::realtime

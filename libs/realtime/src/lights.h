@@ -10,8 +10,8 @@
 #include "depth_bounds.h"
 #include "emitter_samples.h"
 #include "lamp_profiles.h"
+#include "seen_places.h"
 #include "shadow_maps.h"
-#include "view_depths.h"
 
 namespace ssphh::realtime {
 
@@ -44,16 +44,16 @@ class Lights {
   /// Whether any sun's maps follow the view.
   bool any_sun() const;
   /// Brings buffers up to date and fits the sun's cascades to the view, by the depths of what is seen.
-  void prepare(const scene::CameraPose& camera, float aspect, const DepthSpread& seen,
-               const scene::Bounds& bounds, FrameCounters& counters);
+  void prepare(const scene::CameraPose& camera, float aspect, const Seen& seen, const scene::Bounds& bounds,
+               FrameCounters& counters);
   int update_maps(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, gl::Program* glass,
                   int most, int& waiting, FrameCounters& counters);
   void invalidate_all();
   /// Call it after update_maps.
   void update_bounds(Shaders& shaders, const gl::VertexArray& no_vertices, FrameCounters& counters) {
-    if (bounds_) bounds_->update(parallel_, shaders, no_vertices, counters);
+    if (bounds_) bounds_->update(suns_, shaders, no_vertices, counters);
   }
-  /// Everything but the emitter itself.
+  /// Everything but an emitter itself and its parallel maps.
   void bind() const;
 
   /// Those that shine now.
@@ -68,7 +68,6 @@ class Lights {
   void bind_emitter(const Lit& lit) const;
   const MapAtlas& lamp_maps() const { return lamps_; }
   const MapAtlas& area_maps() const { return areas_; }
-  const MapAtlas& parallel_maps() const { return parallel_; }
   float near_plane() const { return near_; }
   const scene::Environment* environment() const { return environment_ ? &*environment_ : nullptr; }
   /// In place of the scene's own image; null: that one.
@@ -104,16 +103,17 @@ class Lights {
   void place(Source& source, const mat4& world);
   void place_samples(Source& source, const mat4& world);
   void point_sun(const Source& source, const vec3& axis, float radius);
-  void place_sun(const Source& source, const scene::CameraPose& camera, float aspect, const DepthSpread& seen,
+  void place_sun(const Source& source, const scene::CameraPose& camera, float aspect, const Seen& seen,
                  const scene::Bounds& bounds);
   void find_environment();
   void show_directions();
   void place_all(const std::vector<mat4>& world);
   bool same_lamp_maps(const Lights& other) const { return lamp_slots_ == other.lamp_slots_; }
   bool same_area_maps(const Lights& other) const { return area_slots_ == other.area_slots_; }
-  bool same_parallel_maps(const Lights& other) const {
-    return parallel_slots_ == other.parallel_slots_ && bounded_ == other.bounded_;
+  bool same_sun_maps(const Lights& other) const {
+    return sun_slots_ == other.sun_slots_ && bounded_ == other.bounded_;
   }
+  bool same_sky_maps(const Lights& other) const { return sky_slots_ == other.sky_slots_; }
   void turn_environment();
   void place_environment(const scene::Bounds& bounds);
   void set_colors();
@@ -139,19 +139,19 @@ class Lights {
   std::vector<GpuEmitter> uploaded_;  ///< as they stand in the buffer
   std::vector<Lit> lit_;
   DistantBlock distant_{};
-  /// What each parallel map was last drawn for.
+  /// What each cascade was last drawn for.
   struct ParallelKey {
     vec3 forward, center;
     float radius;
     friend bool operator==(const ParallelKey&, const ParallelKey&) = default;
   };
-  std::vector<std::optional<ParallelKey>> parallel_key_;
-  int lamp_slots_ = 0, area_slots_ = 0, parallel_slots_ = 0, scene_emitters_ = 0;
-  int bounded_ = 0;        ///< parallel maps of suns with an extent, the first ones
+  std::vector<std::optional<ParallelKey>> sun_key_;
+  int lamp_slots_ = 0, area_slots_ = 0, sun_slots_ = 0, sky_slots_ = 0, scene_emitters_ = 0;
+  int bounded_ = 0;        ///< cascades up to the last of a sun with an extent
   bool same_sky_ = false;  ///< as the lights of before
   scene::Bounds bounds_of_scene_;
   float near_;
-  MapAtlas lamps_, areas_, parallel_;
+  MapAtlas lamps_, areas_, suns_, skies_;
   LampProfiles profiles_;
   std::optional<DepthBounds> bounds_;  ///< of maps of suns with an extent
   gl::Buffer emitter_buffer_, distant_buffer_;

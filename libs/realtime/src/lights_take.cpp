@@ -20,7 +20,8 @@ void Lights::take_from(Lights& before, const std::vector<mat4>& world) {
   };
   if (same_lamp_maps(before)) take(lamps_, before.lamps_);
   if (same_area_maps(before)) take(areas_, before.areas_);
-  if (same_parallel_maps(before)) take(parallel_, before.parallel_), bounds_ = std::move(before.bounds_);
+  if (same_sun_maps(before)) take(suns_, before.suns_), bounds_ = std::move(before.bounds_);
+  if (same_sky_maps(before)) take(skies_, before.skies_);
   if (same_sky_) {
     environment_ = std::move(before.environment_);
     own_environment_ = std::move(before.own_environment_);

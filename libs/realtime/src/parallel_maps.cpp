@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -14,9 +17,37 @@
 namespace ssphh::realtime {
 namespace {
 
+/// What one of a sun's maps shows: a square across its light.
+struct Square {
+  vec3 center;
+  float radius;  ///< half a side
+};
+
+/// Around the places up to this depth, in steps, so that a view that moves a little keeps its maps. `gap`:
+/// how far apart the places may stand.
+std::optional<Square> square_around(std::span<const vec4> places, float end, const Frame& light, float gap) {
+  vec2 low(std::numeric_limits<float>::max()), high(-low);
+  for (const vec4& p : places) {
+    if (p.w > end) continue;
+    const vec2 at(glm::dot(vec3(p), light.x), glm::dot(vec3(p), light.y));
+    low = glm::min(low, at), high = glm::max(high, at);
+  }
+  if (low.x > high.x) return {};
+  const vec2 half = 0.5f * (high - low) + gap;
+  const float own = std::exp2(std::ceil(4 * std::log2(std::max(half.x, half.y))) / 4), step = 0.25f * own;
+  const vec2 center = step * glm::round(0.5f * (low + high) / step);
+  return Square{center.x * light.x + center.y * light.y, own + 0.5f * step};
+}
+
+/// Around all that may be seen up to this depth, in steps likewise.
+Square square_around(const vec3& eye, const vec3& ahead, float end, float side) {
+  const float own = 0.5f * std::sqrt(end * end + 4 * side * side), step = 0.25f * own;
+  return {step * glm::round((eye + 0.5f * end * ahead) / step), own + 0.87f * step};
+}
+
 /// Depths at which all cascades but the last end, which holds the whole scene: all but one in equal ratios up
 /// to where most of the picture stands, one halfway to the farthest that is seen.
-std::array<float, sun_cascades - 1> cascade_ends(const DepthSpread& seen, float whole) {
+std::array<float, sun_cascades - 1> cascade_ends(const Seen& seen, float whole) {
   constexpr int fine = sun_cascades - 2;
   constexpr float least_spread = 4;  // nothing is gained by maps that hardly differ
   const float far = seen.far > 0 ? std::min(seen.far, whole) : whole;
@@ -54,6 +85,7 @@ int Lights::most_sun_parts(const scene::Scene& scene, const RendererParams& para
 void Lights::point_sun(const Source& source, const vec3& axis, float radius) {
   GpuEmitter& e = emitters_[source.emitter];
   e.place = vec4(axis, radius);
+  e.count.z = suns_.size(), e.count.w = suns_.layout().columns_log2;
   if (bounds_) e.items.w = bounds_->layout().columns_log2, e.count.x = bounds_->levels();
   e.more.x = std::sin(radius) / std::sqrt(static_cast<float>(source.parts.size()));
   const Frame frame = Frame::around(axis);
@@ -77,13 +109,15 @@ void Lights::set_parallel(int map, const vec3& forward, const vec3& center, floa
   gpu.origin = vec4(origin, 1 / range);
   gpu.right = vec4(frame.x, 1 / radius);
   gpu.up = vec4(frame.y, 1 / radius);
-  gpu.forward = vec4(forward, static_cast<float>(map));
-  parallel_.set_view(map, {origin, frame.x / radius, frame.y / radius, forward / range, 0});
+  const bool sun = map < sun_slots_;
+  const int tile = sun ? map : map - sun_slots_;
+  gpu.forward = vec4(forward, static_cast<float>(tile));
+  (sun ? suns_ : skies_).set_view(tile, {origin, frame.x / radius, frame.y / radius, forward / range, 0});
   distant_changed_ = true;
 }
 
-void Lights::place_sun(const Source& source, const scene::CameraPose& camera, float aspect,
-                       const DepthSpread& seen, const scene::Bounds& bounds) {
+void Lights::place_sun(const Source& source, const scene::CameraPose& camera, float aspect, const Seen& seen,
+                       const scene::Bounds& bounds) {
   GpuEmitter& emitter = emitters_[source.emitter];
   const vec3 eye(camera.world[3]), ahead = -glm::normalize(vec3(camera.world[2]));
   const float half_height =
@@ -95,28 +129,24 @@ void Lights::place_sun(const Source& source, const scene::CameraPose& camera, fl
   for (int i = 0; i < emitter.items.z * sun_cascades; ++i) {
     const int cascade = i % sun_cascades;
     const vec3 forward(-emitter.samples[i / sun_cascades].place);
-    vec3 center = bounds.center();
-    float radius = bounds.radius();
+    Square square{bounds.center(), bounds.radius()};
     if (cascade + 1 < sun_cascades) {
-      const float end = ends[cascade];
-      const float side = camera.camera.orthographic ? across : across * end;
-      const float own = 0.5f * std::sqrt(end * end + 4 * side * side);
-      if (own < radius) {
-        // In steps, so that a view that moves a little keeps its maps
-        const float step = 0.25f * own;
-        center = step * glm::round((eye + 0.5f * end * ahead) / step);
-        radius = own + 0.87f * step;
-      }
+      const float end = ends[cascade], side = camera.camera.orthographic ? across : across * end;
+      const Square all = square_around(eye, ahead, end, side);
+      const Square some =
+          square_around(seen.places, end, Frame::around(forward), side / SeenPlaces::width).value_or(all);
+      const Square& less = some.radius < all.radius ? some : all;
+      if (less.radius < square.radius) square = less;
     }
     const int map = source.first_map + i;
-    const ParallelKey key{forward, center, radius};
-    std::optional<ParallelKey>& last = parallel_key_[map];
+    const ParallelKey key{forward, square.center, square.radius};
+    std::optional<ParallelKey>& last = sun_key_[map];
     if (key == last && !stretched) continue;
     last = key;
-    set_parallel(map, forward, center, radius, bounds);
+    set_parallel(map, forward, square.center, square.radius, bounds);
     const GpuSunMap& gpu = distant_.maps[map];
-    emitter.corners[i] =
-        vec4(glm::dot(center, vec3(gpu.right)), glm::dot(center, vec3(gpu.up)), 1 / radius, map);
+    emitter.corners[i] = vec4(glm::dot(square.center, vec3(gpu.right)), glm::dot(square.center, vec3(gpu.up)),
+                              1 / square.radius, map);
     emitters_changed_ = true;
   }
 }
@@ -159,9 +189,11 @@ void Lights::turn_environment() {
 
 void Lights::place_environment(const scene::Bounds& bounds) {
   environment_bounds_ = bounds;
+  emitters_changed_ = true;
   for (const Source& source : sources_) {
-    const GpuEmitter& e = emitters_[source.emitter];
+    GpuEmitter& e = emitters_[source.emitter];
     if (e.items.x != static_cast<int>(EmitterKind::environment)) continue;
+    e.count.z = skies_.size(), e.count.w = skies_.layout().columns_log2;
     for (std::size_t i = 0; i < directions_.size(); ++i)
       set_parallel(source.first_map + static_cast<int>(i), -vec3(e.samples[i].place), bounds.center(),
                    1.01f * bounds.radius(), bounds);

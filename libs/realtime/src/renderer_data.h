@@ -18,8 +18,8 @@
 #include "lights.h"
 #include "method_light.h"
 #include "probes.h"
+#include "seen_places.h"
 #include "shaders.h"
-#include "view_depths.h"
 
 namespace ssphh::realtime {
 
@@ -126,7 +126,7 @@ struct Renderer::Data {
   gl::Buffer frame_buffer;
   gl::VertexArray no_vertices;
   FrameImages images;
-  ViewDepths view_depths;
+  SeenPlaces seen_places;
   std::vector<gl::Timer> timers;
   gl::SampleCounter shaded;
   FrameStats stats;

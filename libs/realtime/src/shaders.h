@@ -51,7 +51,7 @@ class Shaders {
   gl::Program& occlusion() { return get(occlusion_, "occlusion.frag"); }
   /// An emitter that is no surface, as the eye sees it.
   gl::Program& seen(EmitterKind kind);
-  gl::Program& some_depths() { return get(some_depths_, "some_depths.frag"); }
+  gl::Program& some_places() { return get(some_places_, "some_places.frag"); }
   gl::Program& view() { return get(view_, "view.frag"); }
   gl::Program& resolve() { return get(resolve_, "resolve.frag"); }
   gl::Program& display() { return get(display_, "display.frag"); }
@@ -80,7 +80,7 @@ class Shaders {
   Slot geometry_[16][2], shadow_[2], depth_bounds_[2], glass_shadow_, direct_[emitter_kinds][2][2][2],
       mirrored_environment_[2], indirect_[indirect_lookups][2][indirect_outputs], agree_[2], mark_,
       interpolate_[2], occlusion_, method_[method_kinds][2][indirect_outputs], seen_[emitter_kinds], view_,
-      resolve_, display_, take_gbuffer_, some_depths_;
+      resolve_, display_, take_gbuffer_, some_places_;
 };
 
 }  // namespace ssphh::realtime

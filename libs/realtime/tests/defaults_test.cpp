@@ -23,7 +23,9 @@ TEST(RealtimeDefaults, OfRenderers) {
   const RendererParams params;
   EXPECT_EQ(params.light_map_size, 1024);
   EXPECT_EQ(params.area_map_size, 256);
-  EXPECT_EQ(params.sun_map_size, 1024);
+  EXPECT_EQ(params.sun_map_size, 2048);
+  EXPECT_EQ(params.sun_map_bytes, std::size_t{192} << 20);
+  EXPECT_EQ(params.environment_map_size, 1024);
   EXPECT_EQ(params.probe_map_bytes, std::size_t{64} << 20);
   EXPECT_EQ(params.voxel_bytes, std::size_t{2} << 30);
   EXPECT_EQ(params.virtual_light_map_bytes, std::size_t{256} << 20);

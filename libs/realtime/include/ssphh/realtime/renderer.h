@@ -41,12 +41,14 @@ struct RendererParams {
       {};                     ///< files here replace the built-in shaders and reload on change
   int light_map_size = 1024;  ///< pixels of a shadow map's face: point and spot lights
   int area_map_size = 256;    ///< of each point on a light with an extent
-  int sun_map_size = 1024;    ///< of a cascade, and of a direction of the environment
+  int sun_map_size = 2048;    ///< of a cascade; halved until all suns' cascades fit in `sun_map_bytes`
+  std::size_t sun_map_bytes = std::size_t{192} << 20;
+  int environment_map_size = 1024;                               ///< of a direction of the environment
   std::size_t probe_map_bytes = std::size_t{64} << 20;           ///< for all probes' maps together
   std::size_t voxel_bytes = std::size_t{2} << 30;                ///< for the voxels of method vct at most
   std::size_t virtual_light_map_bytes = std::size_t{256} << 20;  ///< for the maps of all lights of method vpl
   int area_samples = 16;  ///< points that stand for a light with an extent, each with a shadow map
-  int sun_samples = 7;  ///< parts of a wide sun's disc at most (1, 4, 7, 12, 16), each with four shadow maps
+  int sun_samples = 7;    ///< parts of a wide sun's disc at most (1, 4, 7, 12, 16), each with six shadow maps
   int environment_samples = 32;  ///< directions in which the environment casts shadows
   int maps_per_frame = 1 << 30;  ///< cube maps drawn in one frame at most; the rest wait for the next
 };
