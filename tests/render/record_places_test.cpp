@@ -277,6 +277,29 @@ TEST(RecordPlaces, AreNotWithinARoofThatRestsOnWalls) {
   EXPECT_GT(on_roof, 30) << "where no SPHL looks";
 }
 
+TEST(RecordPlaces, AreNotWithinAWallThatAnSphlStandsIn) {
+  // The beam shows its fronts there, and surfels stand on them.
+  scene::Scene scene;
+  add_body(scene, "ground", scene::make_quad({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}), vec3(0.5f));
+  add_body(scene, "wall", scene::make_box({-0.5f, 0, -2}, {0.5f, 2, 2}), vec3(0.6f));
+  add_body(scene, "beam", scene::make_box({-1.5f, 0.9f, -0.2f}, {1.5f, 1.1f, 0.2f}), vec3(0.6f));
+  add_body(scene, "lamp", scene::make_box({1.8f, 2.5f, -0.2f}, {2, 2.6f, 0.2f}), vec3(0.6f), vec3(3));
+  add_sphl(scene, "inside", {0, 1.4f, 0});
+  add_sphl(scene, "outside", {1.5f, 1.5f, 1});
+  scene::validate(scene);
+  const SolvedScene wall(std::move(scene), 0.2f);
+  const auto within = [](const rays::SurfacePoint& p) {
+    return std::abs(p.position.x) < 0.49f && std::abs(p.position.z) < 1.99f && p.position.y < 1.99f;
+  };
+  const auto count = [&](const std::vector<rays::SurfacePoint>& points) {
+    return std::ranges::count_if(points, within);
+  };
+  EXPECT_GT(count(transport::surfel_points(wall.network())), 150);
+  const auto records = wall.where_needed(4000, 16);
+  EXPECT_GT(records->points().size(), 100u);
+  EXPECT_LT(count(records->points()), 6) << "some see more of the ground within the wall than of the wall";
+}
+
 TEST(RecordPlaces, HaveAnOpennessOfTheHarmonicMeanDistance) {
   // Against as many other cosine rays as bring the mean of 1/d to 1 %.
   const SolvedScene room(coloured_room({3, 2.5f, 2}));

@@ -38,6 +38,10 @@ class RecordPlaces {
     // Cubes too small for two surfels, however few there are, would not differ from larger ones
     const auto apart = static_cast<int>(std::min<std::size_t>(all_.size() - all_.size() / 10, most_records));
     if (!all_.empty()) grid_ = finest_grid(all_, levels_, std::min(most, apart));
+    // Surfels do stand within walls: light that slips through where two bodies meet finds them. Nobody looks
+    // in there, and a record beside the wall's foot would lend its darkness to the floor before it
+    within_ = within_bodies(all_, surfel_sizes_, source_);
+    patches_within_ = within_bodies(patches_, surfel_sizes_, source_);
     if (everywhere) add_unseen(network, most / 4);
   }
 
@@ -54,7 +58,8 @@ class RecordPlaces {
     for (int& level : levels) level += coarser;
     std::vector<std::size_t> result;
     for (const auto& [cell, members] : grid_.sort(all_, levels)) {
-      if (!taken.contains(cell)) result.push_back(middle_one(all_, members));
+      const std::size_t middle = taken.contains(cell) ? all_.size() : middle_one(all_, members);
+      if (middle < all_.size() && !within_[middle]) result.push_back(middle);
     }
     std::ranges::sort(result);
     return result;
@@ -76,6 +81,7 @@ class RecordPlaces {
     parallel_for(
         asked.size(), 64,
         [&](std::size_t i) {
+          if ((patches ? patches_within_ : within_)[i]) return;
           probes::SurfaceShares storage;
           is[i] = std::ranges::none_of(known.at(asked[i], storage), [&](const probes::SurfaceShare& share) {
             const float near = share_of_reach * probes::fitted_reach * known.spacing(share.point);
@@ -117,11 +123,13 @@ class RecordPlaces {
       for (int& level : levels) ++level;
     all_.insert(all_.end(), others.begin(), others.end());
     levels_.insert(levels_.end(), levels.begin(), levels.end());
+    within_.resize(all_.size());
   }
 
   const rays::TransportSource& source_;
   const SurfelSet& surfel_sizes_;
   std::vector<rays::SurfacePoint> all_, patches_;
+  std::vector<std::uint8_t> within_, patches_within_;  ///< whether each lies within a body
   std::size_t surfels_ = 0;
   std::vector<int> levels_;
   PointGrid grid_{vec3(0), 1};

@@ -1,6 +1,7 @@
 #include "unseen_surfaces.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include <ssphh/core/parallel.h>
@@ -29,32 +30,63 @@ std::vector<rays::PartPoint> spread_over(const rays::TransportSource& source, fl
   return points;
 }
 
+/// What a point sees along few rays.
+struct Look {
+  static constexpr std::uint32_t count = 8;
+  std::array<rays::RayQuery, count> rays;
+  std::array<rays::RayHit, count> hits;
+  std::ptrdiff_t backs;  ///< of surfaces
+
+  Look(const rays::TransportSource& source, const rays::SurfacePoint& point, float lift) {
+    const Frame frame = Frame::around(point.normal);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const vec2 u((static_cast<float>(i) + 0.5f) / count, static_cast<float>(i * 3 % count) / count);
+      rays[i] = {point.position + lift * point.normal, frame.to_world(sample_cosine_hemisphere(u))};
+    }
+    source.intersect(0, rays, hits);
+    backs = std::ranges::count_if(hits, [](const rays::RayHit& hit) { return hit.back; });
+  }
+  bool mostly_backs() const { return 2 * backs >= count; }
+};
+
 /// Whether half of what the point sees is the back of surfaces; or some of it, and nothing is known to be
 /// outside: where bodies touch, one shows its front within the other.
 template <class Known>
 bool is_inside(const rays::TransportSource& source, const rays::SurfacePoint& point, float lift,
                const Known& known) {
-  constexpr std::uint32_t count = 8;
-  const Frame frame = Frame::around(point.normal);
-  std::vector<rays::RayQuery> rays;
-  for (std::uint32_t i = 0; i < count; ++i)
-    rays.push_back({point.position + lift * point.normal, frame.to_world(sample_cosine_hemisphere(vec2(
-                                                              (static_cast<float>(i) + 0.5f) / count,
-                                                              static_cast<float>(i * 3 % count) / count)))});
-  std::vector<rays::RayHit> hits(count);
-  source.intersect(0, rays, hits);
-  const auto backs = std::ranges::count_if(hits, [](const rays::RayHit& hit) { return hit.back; });
-  if (backs == 0) return false;
-  if (2 * backs >= count) return true;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const rays::RayHit& hit = hits[i];
+  const Look look(source, point, lift);
+  if (look.backs == 0) return false;
+  if (look.mostly_backs()) return true;
+  for (std::uint32_t i = 0; i < Look::count; ++i) {
+    const rays::RayHit& hit = look.hits[i];
     if (hit.escaped()) return false;
-    if (!hit.back && known({rays[i].origin + hit.distance * rays[i].direction, hit.normal})) return false;
+    if (!hit.back && known({look.rays[i].origin + hit.distance * look.rays[i].direction, hit.normal}))
+      return false;
   }
   return true;
 }
 
 }  // namespace
+
+std::vector<std::uint8_t> within_bodies(std::span<const rays::SurfacePoint> points, const SurfelSet& surfels,
+                                        const rays::TransportSource& source) {
+  const PointGrid voxels{vec3(0), surfels.size()};
+  const auto voxel = [&](const rays::SurfacePoint& point) {
+    return voxels.cell(point, surfels.level(0, point.position));
+  };
+  const float lift = link_lift * surfels.size();
+  std::vector<std::uint8_t> within(points.size());
+  parallel_for(points.size(), 256,
+               [&](std::size_t i) { within[i] = Look(source, points[i], lift).mostly_backs(); });
+  std::set<PointCell> outside;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!within[i]) outside.insert(voxel(points[i]));
+  const auto known = [&](const rays::SurfacePoint& point) { return outside.contains(voxel(point)); };
+  parallel_for(points.size(), 256, [&](std::size_t i) {
+    if (!within[i]) within[i] = is_inside(source, points[i], lift, known);
+  });
+  return within;
+}
 
 std::vector<rays::SurfacePoint> unseen_surfaces(const TransportNetwork& network,
                                                 const rays::TransportSource& source) {
