@@ -221,7 +221,7 @@ class Preparation {
     constexpr float off_sheet = 0.1f, same = 0.9f;  // in parts; a cosine
     return std::any_of(taken.samples.begin(), taken.samples.begin() + taken.count, [&](std::uint32_t i) {
       return std::abs(glm::dot(x - samples.position(i), normal)) < off_sheet * part &&
-             std::abs(glm::dot(normal, samples.normal(i))) > same;
+             glm::dot(normal, samples.normal(i)) > same;
     });
   }
 
@@ -297,15 +297,14 @@ class Preparation {
       for (std::size_t i = 0; i < count; ++i)
         if (i % step != begin) look(i);
     }
-    if (seen == 0) return;
     const rays::SurfacePoint& point = out_.points[candidate.point];
     work.samples.weigh(point, spacings_[candidate.point], cover_[candidate.point]);
     const bool tells = spacings_[candidate.point] <= most_coarser * work.finest;
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t sample = candidate.asked[i];
-      const bool known = !candidate.seen.empty() || i % step == begin;  // else it may lie in a thin wall
-      if (candidate.seen.empty() || candidate.seen[i] == Seen::yes)
-        work.samples.count_in(sample, work.samples.side(sample, point.normal), tells && known);
+      const bool known = asked == count || i % step == begin;  // else it may lie in a thin wall
+      const bool is_seen = candidate.seen.empty() || candidate.seen[i] == Seen::yes;
+      work.samples.count_in(sample, work.samples.side(sample, point.normal), is_seen, tells && known);
     }
   }
 

@@ -36,15 +36,21 @@ class SurfaceSamples {
   Verdict verdict(std::size_t i) const { return static_cast<Verdict>(verdicts_[i]); }
   /// Finds what a point counts at the places.
   void weigh(const rays::SurfacePoint& point, float spacing, int cover);
-  /// Counts in the point that was weighed last: it is seen from there, and tells whether that is `alive`.
-  void count_in(std::size_t i, std::size_t side, bool alive) {
+  /// Counts in the point that was weighed last: whether it is seen from there, and tells whether that is
+  /// `alive`.
+  void count_in(std::size_t i, std::size_t side, bool seen, bool alive) {
+    asked_[side][i] += weights_[i];
+    if (!seen) return;
     alive_[side][i] |= alive;
     numbers_[6 + side][i] += weights_[i];
   }
 
-  /// Whether any point that tells and faces this side's way is seen from there. What sees none lies within a
-  /// body, and has no say.
-  bool alive(std::size_t i, std::size_t side) const { return alive_[side][i] != 0; }
+  /// Whether points that tell and face this side's way are seen from there, and count for something beside
+  /// those that are not. What sees none lies within a body, or in its very edge, and has no say.
+  bool alive(std::size_t i, std::size_t side) const {
+    constexpr float least = 0.005f;
+    return alive_[side][i] != 0 && numbers_[6 + side][i] >= least * asked_[side][i];
+  }
 
   /// What `find` tells of a side, asked once.
   template <class Find>
@@ -61,6 +67,8 @@ class SurfaceSamples {
   std::array<std::vector<std::uint8_t>, 2> alive_, narrow_;  ///< of each side; narrow_: 0 where nobody asked
   std::vector<std::int32_t> verdicts_;
   std::vector<float> weights_;
+  std::array<std::vector<float>, 2>
+      asked_;  ///< weight of all that were counted in, seen or not, of each side
 };
 
 }  // namespace ssphh::probes
