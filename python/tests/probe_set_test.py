@@ -4,7 +4,7 @@ import unittest
 import numpy as np
 
 import ssphh
-from support import InAFolder, constant, error_of
+from support import InAFolder, constant, error_of, run_tool
 
 PLACES = [[0.1, 0.2, 0.3], [0.4, 0.5, -0.6]]
 
@@ -65,6 +65,21 @@ class ProbeSets(InAFolder):
         again.save(self.path("a.sphl.json"))
         np.testing.assert_allclose(ssphh.ProbeSet.load(self.path("a.sphl.json")).reflected, probes.reflected, rtol=1e-4)
         self.assertNotEqual(ssphh.ProbeSet.from_arrays(PLACES, probes.reflected), probes)
+
+    def test_packed_files_are_read_as_floats(self):
+        light = np.zeros((1, 2, 9, 3))
+        light[:, :, 0] = [1, 0.5, 0.25]
+        light[:, :, 1:] = np.linspace(-0.2, 0.2, 2 * 8 * 3).reshape(2, 8, 3)
+        ssphh.ProbeSet.from_arrays(PLACES, light, light_groups=["lamp"], names=["a", "b"]).save(self.path("a.sphl"))
+        for pack, error in [("half", 2**-11), ("rgb9e5", 0.01)]:
+            run_tool("probe", "convert", self.path("a.sphl"), "-o", self.path(f"{pack}.sphl"), "--pack", pack)
+            self.assertLess(len(self.bytes_of(f"{pack}.sphl")), len(self.bytes_of("a.sphl")))
+            probes = ssphh.ProbeSet.load(self.path(f"{pack}.sphl"))
+            run_tool("probe", "convert", self.path(f"{pack}.sphl"), "-o", self.path("floats.sphl"))
+            self.assertEqual(probes.names, ["a", "b"])
+            np.testing.assert_array_equal(probes.reflected, ssphh.ProbeSet.load(self.path("floats.sphl")).reflected, "as the tool unpacks them")
+            np.testing.assert_allclose(probes.reflected, light[0], atol=error, rtol=error)
+            self.assertFalse(np.array_equal(probes.reflected, light[0].astype(np.float32)), "packed, indeed")
 
     def test_views_are_where_the_numbers_lie_and_keep_them(self):
         probes, light = self.two()

@@ -13,6 +13,7 @@
 
 #include "here.h"
 #include "temp_dir.h"
+#include "tev_listener.h"
 #include "tool.h"
 
 namespace ssphh {
@@ -41,8 +42,9 @@ class BakeWatch : public testing::Test {
 
 TEST_F(BakeWatch, FollowsSavesUntilCtrlC) {
   save(2);
-  test::ToolProcess tool(test::joined(
-      bake(out_), {"--watch", "--preview", picture_, "--tolerance", "0", "--progress", "none", "--json"}));
+  test::TevListener tev;
+  test::ToolProcess tool(test::joined(bake(out_), {"--watch", "--preview", picture_, "--tev", tev.address(),
+                                                   "--tolerance", "0", "--progress", "none", "--json"}));
   ASSERT_TRUE(tool.wait_for_stderr("watching 1 file;")) << tool.stderr_so_far();
   test::json_here(bake(full_));
   EXPECT_EQ(bytes(out_), bytes(full_));
@@ -70,6 +72,11 @@ TEST_F(BakeWatch, FollowsSavesUntilCtrlC) {
   tool.signal(SIGINT);
   const test::ToolResult ended = tool.wait();
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  const std::vector<image::Image>& seen = tev.shown().seen.at(picture_);
+  EXPECT_EQ(seen.size(), 5u)
+      << "the first, and two of each save that could be read: with the light of before, and after";
+  EXPECT_EQ(seen[0].width, 480);
+  EXPECT_NE(seen[0].pixels, seen[2].pixels);
   const json::Value result = test::parse_json(ended.out);
   EXPECT_EQ(result["first"]["probes"], 5);
   ASSERT_EQ(result["rounds"].size(), 3u) << ended.err;

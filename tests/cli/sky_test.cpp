@@ -13,6 +13,7 @@
 namespace ssphh {
 namespace {
 
+using test::joined;
 using test::json_here;
 using test::problem_here;
 using test::run_here;
@@ -20,11 +21,6 @@ using testing::HasSubstr;
 
 const std::vector<std::string> munich = {"--sky",   "physical",  "--date",       "2026-06-21",
                                          "--place", "48.1,11.6", "--utc-offset", "2"};
-
-std::vector<std::string> joined(std::vector<std::string> first, const std::vector<std::string>& more) {
-  first.insert(first.end(), more.begin(), more.end());
-  return first;
-}
 
 std::vector<std::string> render(const std::string& output, const std::vector<std::string>& more) {
   return joined({"render", "builtin:cornell", "-o", output, "--width", "8", "--height", "6", "--spp", "2"},

@@ -8,6 +8,7 @@
 
 #include "commands/bake_watch.h"
 #include "commands/command.h"
+#include "options/picture_options.h"
 #include "options/probe_options.h"
 
 namespace ssphh::app {
@@ -161,6 +162,7 @@ void add_update_options(const Command& update, BakeOptions& options) {
           "Picture (.png, .jpg, .exr, .hdr) to draw with the probes after each bake, from the scene's first "
           "camera")
       .needs(watch);
+  add_tev_option(update, options.tev, "Show that picture in the viewer tev that listens there").needs(watch);
 }
 
 }  // namespace

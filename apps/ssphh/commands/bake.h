@@ -41,6 +41,7 @@ struct BakeOptions : pipeline::BakeSettings {
   std::vector<std::string> not_of_update;
   bool watch = false;   ///< go on with updates whenever the scene's files are saved
   std::string preview;  ///< of a watch: picture to draw of each bake; empty: none
+  std::string tev;      ///< of a watch: "HOST:PORT" of a tev that shows the picture; empty: none
 };
 
 /// What an update found.

@@ -17,6 +17,7 @@
 #include "commands/bake_update.h"
 #include "options/picture_options.h"
 #include "results/pictures.h"
+#include "results/tev.h"
 
 namespace ssphh::app {
 namespace {
@@ -32,7 +33,10 @@ constexpr int preview_width = 480, preview_height = 270, preview_samples = 4;
 /// time: what differs between two pictures of a scene is due to the probes.
 class Preview {
  public:
-  explicit Preview(const std::string& file) : file_(file) {}
+  explicit Preview(const BakeOptions& o)
+      : file_(o.preview), name_(file_.empty() ? o.output + " preview" : file_), viewer_(o.tev) {}
+
+  bool wanted() const { return !file_.empty() || viewer_; }
 
   image::Image draw(const SeenLight& seen, const Control& control) {
     const trace::PathTracer tracer(seen.geometry, seen.scene, seen.set.generator.time);
@@ -45,6 +49,8 @@ class Preview {
     trace::RenderState state;
     tracer.render_with(lookup, params, state, {nullptr, control.cancel});
     const image::Image picture = trace::resolve(state.color, state.passes_done);
+    viewer_.show(name_, picture);
+    if (file_.empty()) return picture;
     const float suitable = suitable_exposure(picture);
     if (std::abs(exposure_.value_or(suitable + 2 * most_stops_off) - suitable) > most_stops_off)
       exposure_ = suitable;
@@ -53,7 +59,8 @@ class Preview {
   }
 
  private:
-  std::string file_;
+  std::string file_, name_;  ///< no file: for the viewer alone
+  TevViewer viewer_;
   /// Of the picture before, as long as it serves: with one of its own for each, light that comes and goes
   /// would not show.
   std::optional<float> exposure_;
@@ -124,9 +131,9 @@ BakeWatch run_bake_watch(const BakeOptions& options, const Control& control) {
     throw Error("--renderer cycles", "is not for --watch, whose updates go on with our path tracer's light");
   BakeWatch watch;
   BakeWatcher watcher;
-  Preview preview(options.preview);
+  Preview preview(options);
   std::optional<image::Image> before, after;
-  if (!options.preview.empty()) {
+  if (preview.wanted()) {
     watcher.see = [&](const SeenLight& seen) { (seen.done ? after : before) = preview.draw(seen, control); };
   }
   watch.first = run_bake_watched(options, watcher, control);

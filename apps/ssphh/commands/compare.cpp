@@ -12,8 +12,10 @@
 #include <ssphh/trace/render_state.h>
 
 #include "commands/command.h"
+#include "options/picture_options.h"
 #include "results/json_values.h"
 #include "results/pictures.h"
+#include "results/tev.h"
 
 namespace ssphh::app {
 namespace {
@@ -115,6 +117,7 @@ float write_map(const CompareOptions& options, const Image& reference, const Ima
 }  // namespace
 
 CompareResult run_compare(const CompareOptions& options, const Control&) {
+  TevViewer viewer(options.tev);
   if (!options.output.empty()) {
     const image::FileFormat format = image::format_of_extension(options.output);
     if (format != image::FileFormat::png && format != image::FileFormat::exr) {
@@ -136,9 +139,15 @@ CompareResult run_compare(const CompareOptions& options, const Control&) {
   }
   CompareResult result = measure(options, reference, test);
   result.linear.nonfinite_pixels -= outside;
-  const bool map_of_edges = !options.output.empty() && options.map == ErrorMap::edges;
+  const bool map_of_edges = (!options.output.empty() || viewer) && options.map == ErrorMap::edges;
   if (options.edges || map_of_edges) result.edges = edges_between(options, mask, indirect);
   if (!options.output.empty()) result.map_scale = write_map(options, reference, test, result, indirect);
+  if (viewer) {
+    viewer.show(options.reference, reference);
+    viewer.show(options.test, test);
+    viewer.show(fmt::format("{}: {} error", options.test, name_of(options.map)),
+                error_map(options, reference, test, result));
+  }
   return result;
 }
 
@@ -252,6 +261,8 @@ void add_compare_command(Command app, Context& context) {
           "--scale", o.scale,
           "Error shown in the last colour of a .png map; 0: the 99th percentile, for flip 1, for edges 0.2")
       .non_negative();
+  add_tev_option(command, o.tev,
+                 "Show both images and the map's numbers in the viewer tev that listens there");
   command.option("--exposure", o.exposure, "Multiply both images by 2^EV first").range(-60.0, 60.0);
   command.option("--ppd", o.pixels_per_degree, "Pixels in one degree of the viewer's sight, for FLIP")
       .range(1.0, 500.0);

@@ -23,6 +23,7 @@ struct CompareOptions {
   /// Also look for false edges, in `REF.indirect.exr` and so on that stand beside the pictures; a map of them
   /// asks for it as well.
   bool edges = false;
+  std::string tev;               ///< "HOST:PORT" of a tev that shows both and the map's numbers; empty: none
   bool allow_nonfinite = false;  ///< infinite pixels and NaN are no failure
 
   std::string output;  ///< error map to write: .png (colours) or .exr (numbers); empty: none

@@ -19,6 +19,7 @@
 #include "options/probe_options.h"
 #include "results/geometry_builds.h"
 #include "results/pictures.h"
+#include "results/tev.h"
 
 namespace ssphh::app {
 namespace {
@@ -104,12 +105,12 @@ Hash128 content_hash(const RenderOptions& o, const scene::Scene& scene) {
 std::optional<MethodFigures> render_here(const trace::SharedGeometry& geometry, const scene::Scene& scene,
                                          const RenderOptions& o, const trace::RenderParams& params,
                                          trace::RenderState& state, sketch::Sketch& drawn,
-                                         const Control& control) {
+                                         const Control& control, const trace::SeePass& see) {
   std::optional<probes::ProbeSet> set;
   if (!o.probes.empty()) set = read_probes(o, scene);
   const pipeline::LightFinder finder{o.method, o.parameters, set ? &*set : nullptr, o.probes, o.lookup};
   return pipeline::render_scene(geometry, scene, o.scene.time, finder, params, state, control, drawings_of(o),
-                                &drawn);
+                                &drawn, see);
 }
 
 void check_method(const RenderOptions& o) {
@@ -150,10 +151,7 @@ void check_backend(const RenderOptions& o) {
                 "repeat the command without it");
 }
 
-}  // namespace
-
-RenderResult run_render(const RenderOptions& o, const Control& control) {
-  if (o.backend == RenderBackend::gl) return render_gl(o, control);
+RenderResult render_cpu(const RenderOptions& o, TevViewer& viewer, const Control& control) {
   const GeometryBuilds builds;
   check_method(o);
   check_backend(o);
@@ -178,8 +176,11 @@ RenderResult run_render(const RenderOptions& o, const Control& control) {
   if (session) {
     state = render_on_farm(*session, scene, o, params, result.farm.emplace(), drawn, control);
   } else {
+    const auto see = [&](const trace::RenderState& passes) {
+      if (viewer) viewer.show(o.output, trace::resolve(passes.color, passes.passes_done));
+    };
     run_passes(o, state,
-               [&] { result.method = render_here(geometry, scene, o, params, state, drawn, control); });
+               [&] { result.method = render_here(geometry, scene, o, params, state, drawn, control, see); });
   }
   result.seconds = watch.seconds();
   result.passes = state.passes_done, result.paths = state.paths, result.rays = state.rays;
@@ -187,6 +188,16 @@ RenderResult run_render(const RenderOptions& o, const Control& control) {
   draw_and_write(result, o, drawn, geometry, scene, params, control);
   write_aovs(o, state, groups);
   result.geometry_builds = builds.count();
+  return result;
+}
+
+}  // namespace
+
+RenderResult run_render(const RenderOptions& o, const Control& control) {
+  TevViewer viewer(o.tev);
+  RenderResult result =
+      o.backend == RenderBackend::gl ? render_gl(o, control) : render_cpu(o, viewer, control);
+  viewer.show(o.output, result.picture);
   return result;
 }
 

@@ -7,6 +7,8 @@
 
 #include <ssphh/core/parse_number.h>
 
+#include "results/tev.h"
+
 namespace ssphh::app {
 
 void add_camera_option(Command command, std::string& camera) {
@@ -40,6 +42,14 @@ void add_exposure_option(Command command, std::optional<float>& exposure, const 
     return "";
   };
   command.value("--exposure", "auto", help, take).kind("auto|EV");
+}
+
+Option add_tev_option(Command command, std::string& address, const std::string& help) {
+  const auto problem = [](const std::string& text) {
+    return tev_address(text) ? std::string()
+                             : fmt::format("{} is no HOST:PORT; tev itself listens at 127.0.0.1:14158", text);
+  };
+  return command.option("--tev", address, help).check(problem, "HOST:PORT");
 }
 
 void add_picture_options(Command command, PictureOptions& o) {

@@ -26,6 +26,8 @@ vec3 place_of(const scene::Scene& scene, const std::string& text, float time);
 Option add_max_depth_option(Command command, int& max_depth);
 /// --exposure auto|EV; none stands for auto.
 void add_exposure_option(Command command, std::optional<float>& exposure, const std::string& help);
+/// --tev HOST:PORT, for a TevViewer.
+Option add_tev_option(Command command, std::string& address, const std::string& help);
 
 struct PictureOptions {
   SceneOptions scene;

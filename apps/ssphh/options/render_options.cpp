@@ -40,6 +40,8 @@ void add_render_options(Command command, RenderOptions& o) {
       .option("-o,--output", o.output, "Picture: .exr or .hdr (linear radiance), .png or .jpg (tone mapped)")
       .required();
   command.option("--png", o.png, "Also write a tone-mapped PNG here");
+  add_tev_option(command, o.tev,
+                 "Show the picture in the viewer tev that listens there, after each of --passes");
   add_size_options(command, o.width, o.height, 65536);
   add_camera_option(command, o.camera);
   command.choice(

@@ -41,6 +41,7 @@ struct RenderOptions {
   std::vector<std::string> draw;
   std::optional<float> exposure;  ///< of tone-mapped pictures, in stops; none: what suits the picture
   image::ToneCurve tonemap = image::ToneCurve::clip;
+  std::string tev;  ///< "HOST:PORT" of a tev that shows the picture, after each pass; empty: none
 
   int width = 1280, height = 720;  ///< pixels, over 0
   std::string camera;              ///< by name; empty: the scene's first

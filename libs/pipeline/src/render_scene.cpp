@@ -74,27 +74,27 @@ std::optional<MethodFigures> render_scene(const trace::SharedGeometry& geometry,
                                           float time, const LightFinder& finder,
                                           const trace::RenderParams& params, trace::RenderState& state,
                                           const Control& control, std::span<const methods::Drawing> drawings,
-                                          sketch::Sketch* drawn) {
+                                          sketch::Sketch* drawn, const trace::SeePass& see) {
   check_drawings(finder.method, finder.probes != nullptr, drawings);
   check_method(finder.method, !finder.parameters.empty(), finder.probes != nullptr);
   warn_about_lamps(geometry, scene, time);
   const trace::PathTracer tracer(geometry, scene, time);
   if (finder.method == "path") {
-    tracer.render(params, state, control);
+    tracer.render(params, state, control, see);
     return std::nullopt;
   }
   if (finder.probes) {
     const auto indirect =
         probes::make_lookup(finder.lookup.method, *finder.probes, tracer,
                             lookup_params(finder.probes_name, *finder.probes, finder.lookup));
-    tracer.render_with(*indirect, params, state, control);
+    tracer.render_with(*indirect, params, state, control, see);
     if (drawn) *drawn = drawn_of(*finder.probes, drawings);
     return std::nullopt;
   }
   LiveMethod live(finder.method, finder.parameters, geometry, scene, control, true);
   live.update(rays::lighting_at(live.source(), time), control);
   log_info("{}: {}", finder.method, live.text());
-  tracer.render_with(live.method().light(), params, state, control);
+  tracer.render_with(live.method().light(), params, state, control, see);
   if (drawn) *drawn = drawn_of(live.method(), drawings);
   return live.figures();
 }

@@ -162,7 +162,7 @@ std::optional<shading::LightSet> mirrored_lights(const shading::LightSet& lights
 }
 
 void run_passes(const TracerData& data, const rays::IndirectLight* indirect, const RenderParams& params,
-                RenderState& state, const Control& control) {
+                RenderState& state, const Control& control, const SeePass& see) {
   const std::size_t groups = data.group_count();
   check_params(params, groups);
   const CameraRays camera(params);
@@ -227,19 +227,21 @@ void run_passes(const TracerData& data, const rays::IndirectLight* indirect, con
     add_pass(state, pass, indirect == nullptr);
     state.paths += row_paths * height;
     state.rays += data.rays.total() - rays_before;
+    if (see) see(state);
   }
   report_invalid(invalid);
 }
 
 }  // namespace
 
-void PathTracer::render(const RenderParams& params, RenderState& state, const Control& control) const {
-  run_passes(*data_, nullptr, params, state, control);
+void PathTracer::render(const RenderParams& params, RenderState& state, const Control& control,
+                        const SeePass& see) const {
+  run_passes(*data_, nullptr, params, state, control, see);
 }
 
 void PathTracer::render_with(const rays::IndirectLight& indirect, const RenderParams& params,
-                             RenderState& state, const Control& control) const {
-  run_passes(*data_, &indirect, params, state, control);
+                             RenderState& state, const Control& control, const SeePass& see) const {
+  run_passes(*data_, &indirect, params, state, control, see);
 }
 
 }  // namespace ssphh::trace

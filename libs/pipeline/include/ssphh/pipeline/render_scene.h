@@ -51,14 +51,14 @@ sketch::Sketch drawn_of(const methods::Method& method, std::span<const methods::
 sketch::Sketch drawn_of(const probes::ProbeSet& set, std::span<const methods::Drawing> drawings);
 
 /// Adds passes to `state`, as trace::PathTracer::render does, of the scene posed at `time`. Returns what a
-/// method took that was made for the picture; none for the others. Marks of `drawings` go to `drawn`. Throws
-/// Error for unknown methods and parameters, for weights that the probes do not have, and as the method does;
-/// Cancelled.
+/// method took that was made for the picture; none for the others. Marks of `drawings` go to `drawn`; `see`
+/// is told of each pass. Throws Error for unknown methods and parameters, for weights that the probes do not
+/// have, and as the method does; Cancelled.
 std::optional<MethodFigures> render_scene(const trace::SharedGeometry& geometry, const scene::Scene& scene,
                                           float time, const LightFinder& finder,
                                           const trace::RenderParams& params, trace::RenderState& state,
                                           const Control& control = {},
                                           std::span<const methods::Drawing> drawings = {},
-                                          sketch::Sketch* drawn = nullptr);
+                                          sketch::Sketch* drawn = nullptr, const trace::SeePass& see = {});
 
 }  // namespace ssphh::pipeline

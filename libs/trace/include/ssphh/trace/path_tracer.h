@@ -50,12 +50,13 @@ class PathTracer final : public rays::RadianceSource {
   std::uint64_t rays_traced() const override;
 
   /// Adds passes to `state` until it holds params.path.passes. After a Cancelled, `state` holds the passes
-  /// finished so far and can be continued.
-  void render(const RenderParams& params, RenderState& state, const Control& control = {}) const;
+  /// finished so far and can be continued. `see` is told of each pass.
+  void render(const RenderParams& params, RenderState& state, const Control& control = {},
+              const SeePass& see = {}) const;
 
   /// Path traced direct light, indirect light looked up from probes at the first hit.
   void render_with(const rays::IndirectLight& indirect, const RenderParams& params, RenderState& state,
-                   const Control& control = {}) const;
+                   const Control& control = {}, const SeePass& see = {}) const;
 
  private:
   struct Data;

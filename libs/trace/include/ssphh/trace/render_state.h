@@ -2,6 +2,7 @@
 /// Parameters and accumulated result of a progressive render: plain data.
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -59,6 +60,9 @@ struct RenderState {
   Hash128 key;  ///< of scene and parameters without `passes`: guards a resumed state; set by the first render
                 ///< if zero
 };
+
+/// Told of a render's finished passes after each, from the thread that renders.
+using SeePass = std::function<void(const RenderState&)>;
 
 /// An image of a RenderState, or, as `groups`, one for each light group: in the order of the state.
 enum class RenderLayer : std::uint8_t { color, direct, indirect, albedo, normal, depth, coverage, groups };
