@@ -1,5 +1,5 @@
-// Histogram and false colours as a user sees them: over the real-time and the traced picture, by keys, kept
-// for the next session.
+// Histogram, waveform and false colours as a user sees them: over the real-time and the traced picture, by
+// keys, kept for the next session.
 
 #include <gmock/gmock.h>
 
@@ -70,6 +70,26 @@ TEST_F(ReadPicture, IsCountedAndSoIsTheTruth) {
   EXPECT_FALSE(app().histogram);
 }
 
+TEST_F(ReadPicture, HasAWaveformOfWhatIsShown) {
+  app().open("builtin:two-rooms");
+  play("camera room-a");
+  EXPECT_FALSE(app().waveform);
+  play("key U");
+  ASSERT_TRUE(app().waveform);
+  const auto of = [&](float ev) { return waveform(app().picture.linear(), ev).channels; };
+  EXPECT_EQ(app().waveform->channels, of(0));
+  play("set exposure 2");
+  EXPECT_EQ(app().waveform->channels, of(2));
+  play("set show truth");
+  const auto truth = waveform(*app().reference.image().color, 2);
+  EXPECT_EQ(app().waveform->channels, truth.channels);
+  play("set show wipe");
+  play("set wipe 0.25");
+  EXPECT_EQ(app().waveform->channels, wiped(waveform(app().picture.linear(), 2), truth, 0.25f).channels);
+  play("set show realtime\nkey U");
+  EXPECT_FALSE(app().waveform);
+}
+
 class Readings : public PanelStage {};
 
 TEST_F(Readings, LegendAndHistogramSayTheirUnits) {
@@ -88,6 +108,11 @@ TEST_F(Readings, LegendAndHistogramSayTheirUnits) {
   app().truth_histogram.emplace();
   rest();
   EXPECT_TRUE(shows("white line: traced"));
+  EXPECT_FALSE(shows("red, green, blue"));
+  app().waveform.emplace();
+  press({'U'});
+  rest();
+  EXPECT_TRUE(shows("red, green, blue over columns"));
 }
 
 class KeptLook : public AppStage {};
@@ -96,7 +121,7 @@ TEST_F(KeptLook, OfTheWindowComesBack) {
   options_.preferences = dir_ / "config" / "preferences.json";
   start(1280, 800);
   app().turn({});
-  app().settings.histogram = true;
+  app().settings.histogram = app().settings.waveform = true;
   const float usual = app().viewport.x;
   app().side_width = 21.5f;
   turn();
@@ -105,6 +130,7 @@ TEST_F(KeptLook, OfTheWindowComesBack) {
   start(1280, 800);
   turn();
   EXPECT_TRUE(app().settings.histogram);
+  EXPECT_TRUE(app().settings.waveform);
   EXPECT_FALSE(app().settings.false_color);
   EXPECT_EQ(app().viewport.x, width);
   app().side_width = 0;
