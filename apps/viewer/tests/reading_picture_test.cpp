@@ -90,6 +90,23 @@ TEST_F(ReadPicture, HasAWaveformOfWhatIsShown) {
   EXPECT_FALSE(app().waveform);
 }
 
+TEST_F(ReadPicture, WhoseTruthFailsSaysSo) {
+  app().open("builtin:two-rooms");
+  play("camera room-a");
+  scene::Scene scene = *app().document.scene;
+  for (scene::Node& node : scene.nodes) node.movable = true;
+  app().take_document(make_document("builtin:stage", std::move(scene), 0));
+  play("set against prt\nset show wipe");
+  EXPECT_THAT(app().message, testing::HasSubstr("no surface that stands still"));
+  EXPECT_TRUE(app().message_is_error);
+  EXPECT_EQ(app().settings.show, Show::realtime) << "it is not begun again and again";
+  EXPECT_FALSE(app().reference.status().running);
+  app().message.clear();
+  play("set against path\nset show truth");
+  EXPECT_EQ(app().message, "");
+  EXPECT_TRUE(app().reference.image().color);
+}
+
 class Readings : public PanelStage {};
 
 TEST_F(Readings, LegendAndHistogramSayTheirUnits) {
