@@ -51,7 +51,7 @@ double App::turn(const InjectedInput& input) {
   }
   take_work();
   if (farm) take_farm_news();
-  if (reference.poll()) screen_.truth_dirty = true, redraw();
+  take_truth();
   take_marks();
   watch_file();
   note_view();
@@ -102,6 +102,16 @@ void App::take_work() {
   if (!mended_) return;
   dialog = std::exchange(mended_, std::nullopt);
   dialog->problem = error;
+}
+
+void App::take_truth() {
+  if (reference.poll()) screen_.truth_dirty = true, redraw();
+  const std::string error = reference.take_error();
+  if (error.empty()) return;
+  redraw();
+  settings.show = Show::realtime;  // it would begin anew, and fail again
+  if (failures_end) throw std::runtime_error(error);
+  complain(error);
 }
 
 void App::take_marks() {

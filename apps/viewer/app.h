@@ -52,6 +52,7 @@ class App {
   /// Takes over what is done in the background; of what failed the user is told.
   void take_work();
   /// The same of marks; those that failed are switched off.
+  void take_truth();
   void take_marks();
   /// Takes over what the farm's broker told, if there is one; tells the user when it is lost, and back.
   void take_farm_news();
@@ -233,6 +234,7 @@ class App {
   FrameTimes times;
   realtime::FrameStats last_stats;
   std::optional<StopHistogram> histogram, truth_histogram;  ///< of the pictures that are shown
+  std::optional<Waveform> waveform;                         ///< of the picture that is shown
   CameraPath bookmarks;
   float path_time = 0;
   bool path_plays = false;
@@ -297,7 +299,7 @@ class App {
   void finish_picture(const Drawing& done);
   void draw_balls();
   void draw_outline();
-  /// Brings histograms and false colours up to date with the picture.
+  /// Brings histograms, waveform and false colours up to date with the picture.
   void update_readings();
   void update_truth();
   /// Marks are drawn over a picture once it is whole.
@@ -315,9 +317,8 @@ class App {
   bool smooths() const {
     return settings.antialias && !needs_truth(settings) && !settings.false_color && !draws_marks();
   }
-  bool wants_linear() const {
-    return needs_truth(settings) || inspecting || settings.histogram || settings.false_color || draws_marks();
-  }
+  bool reads() const { return settings.histogram || settings.waveform || settings.false_color; }
+  bool wants_linear() const { return needs_truth(settings) || inspecting || reads() || draws_marks(); }
 
   LoadScene load_;
   std::optional<gl::Context> gl_;  ///< adopted with the first scene

@@ -128,13 +128,14 @@ void App::remember_scene(const std::string& source, bool stays) {
 }
 
 WindowLook App::look() const {
-  return {side_width, settings.histogram, settings.false_color};
+  return {side_width, settings.histogram, settings.waveform, settings.false_color};
 }
 
 void App::take_look() {
   if (!by_hand()) return;
   side_width = preferences.look.side_width;
   settings.histogram = preferences.look.histogram;
+  settings.waveform = preferences.look.waveform;
   settings.false_color = preferences.look.false_color;
 }
 

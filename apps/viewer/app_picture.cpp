@@ -103,17 +103,29 @@ void App::update_marks() {
 
 void App::update_readings() {
   const image::Image& linear = picture.linear();
-  if (!settings.histogram && !settings.false_color) return histogram.reset(), truth_histogram.reset();
+  if (!reads()) return histogram.reset(), truth_histogram.reset(), waveform.reset();
   if (linear.empty()) return;
   const bool traced = needs_truth(settings) && reference.image().color;
   const float exposure = shown_tone(settings).exposure;
-  const std::tuple now{screen_.pictures, traced ? reference.image().passes : 0, exposure,
-                       settings.false_color};
+  const ReadFor now{screen_.pictures,
+                    traced ? reference.image().passes : 0,
+                    exposure,
+                    settings.waveform,
+                    settings.false_color,
+                    settings.show,
+                    settings.wipe};
   if (screen_.readings == now) return;
   screen_.readings = now;
   histogram = stop_histogram(linear, exposure);
   truth_histogram.reset();
   if (traced) truth_histogram = stop_histogram(*reference.image().color, exposure);
+  waveform.reset();
+  if (settings.waveform) {
+    const bool wipes = settings.show == Show::wipe, alone = settings.show == Show::truth;
+    const float line = traced && alone ? 0 : traced && wipes ? settings.wipe : 1;
+    waveform = viewer::waveform(linear, exposure);
+    if (line < 1) waveform = wiped(*waveform, viewer::waveform(*reference.image().color, exposure), line);
+  }
   if (settings.false_color) picture.take_instead(false_color(linear, exposure));
   redraw();
 }

@@ -40,7 +40,7 @@ constexpr Shortcut all_shortcuts[] = {
     {"X", "aim the selected lamp at the next click"},
     {"Ctrl+D, Delete", "duplicate the selected lamp, delete a lamp or an SPHL"},
     {"T", "ground truth: off, beside the picture, alone, difference"},
-    {"J, K", "histogram, false colours, both in stops"},
+    {"J, U, K", "histogram, waveform, false colours, all in stops"},
     {"1 … 8", "all, direct, indirect, albedo, normal, shadow, SPHL, leak"},
     {"[ ] \\", "darker, brighter, as suits the picture"},
     {"Ctrl+Z, Ctrl+Y", "undo, redo (also Ctrl+Shift+Z)"},

@@ -4,7 +4,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -40,6 +39,17 @@ struct MarkedFor {
   friend bool operator==(const MarkedFor&, const MarkedFor&) = default;
 };
 
+/// What histograms, waveform and false colours hold for.
+struct ReadFor {
+  int picture = 0, passes = 0;  ///< as Screen::pictures; of the truth, 0 where none is shown
+  float exposure = 0;           ///< EV
+  bool waveform = false, false_color = false;
+  Show show = Show::realtime;
+  float wipe = 0;
+
+  friend bool operator==(const ReadFor&, const ReadFor&) = default;
+};
+
 /// The picture on the screen with what lies over and beside it. Each of them is drawn anew once it is not
 /// that of now.
 struct Screen {
@@ -54,8 +64,7 @@ struct Screen {
   std::optional<std::pair<DrawnWith, float>> outline;  ///< of what is selected, and when in the scene
   std::vector<unsigned char> visible;                  ///< per probe, from the eye
   std::optional<std::pair<View, float>> visible_from;  ///< and when in the scene `visible` holds
-  /// Picture, passes of truth, EV and false colours that histograms and false colours hold for.
-  std::optional<std::tuple<int, int, float, bool>> readings;
+  std::optional<ReadFor> readings;
   std::optional<MarkedFor> marked;          ///< what the marks were asked for
   std::optional<Settings> truth_settings;   ///< that the truth was made for
   std::pair<std::string, int> truth_asked;  ///< method and depth of what is traced

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <ssphh/core/file.h>
 #include <ssphh/image/io.h>
 #include <ssphh/scene/builtin.h>
 
@@ -40,6 +41,20 @@ std::string pattern(const std::string& text) {
 
 double number(const json::Value& object, const char* key) {
   return object[key].number();
+}
+
+TEST(Texts, OfASceneNameLampsProfiles) {
+  const test::TempDir dir;
+  const std::string file = (dir / "lit.ssphh.json").string();
+  write_file(file, R"({"scene": "builtin:gallery1", "lights": [
+      {"name": "desk", "type": "point", "position": [0, 2, 0], "direction": [0, -1, 0],
+       "profile": {"name": "wash.ies", "ies": "TILT=NONE\n1 1 1 2 1 1 2 0 0 0 1 1 0 0 90 0 5 6"}}]})");
+  const json::Value profiles = json_here({"scene", "info", file})["lamp_profiles"];
+  ASSERT_EQ(profiles.size(), 1u);
+  EXPECT_EQ(profiles[0]["lamp"], "desk");
+  EXPECT_EQ(profiles[0]["profile"], "wash.ies");
+  EXPECT_THAT(text_here({"scene", "info", file}), testing::HasSubstr("\nprofiles     wash.ies of desk\n"));
+  EXPECT_EQ(json_here({"scene", "info", "builtin:gallery1"})["lamp_profiles"].size(), 0u);
 }
 
 TEST(Texts, OfScenes) {

@@ -77,6 +77,9 @@ SceneInfo run_scene_info(const SceneOptions& options, const Control&) {
   info.movable = static_cast<std::size_t>(std::ranges::count(scene.nodes, true, &scene::Node::movable));
   info.environment = scene.environment.has_value();
   info.light_groups = scene::light_groups(scene);
+  for (const scene::Light& light : scene.lights) {
+    if (!light.profile.empty()) info.lamp_profiles.push_back({light.name, light.profile.name});
+  }
   info.cameras = item_names(scene.cameras);
   info.sphls = item_names(scene.sphls);
   info.places = scene::sphl_places(scene, options.time);
@@ -91,6 +94,9 @@ json::Value to_json(const SceneInfo& info, const SceneOptions& options) {
   json::Value places = json::Value::array(), bounds;
   for (const scene::ProbePlace& place : info.places)
     places.push_back({{"name", place.name}, {"position", to_json(place.position)}, {"radius", place.radius}});
+  json::Value profiles = json::Value::array();
+  for (const auto& [lamp, profile] : info.lamp_profiles)
+    profiles.push_back({{"lamp", lamp}, {"profile", profile}});
   if (!info.bounds.empty()) bounds = {{"min", to_json(info.bounds.min)}, {"max", to_json(info.bounds.max)}};
   return {{"scene", options.source},
           {"name", info.name},
@@ -105,6 +111,7 @@ json::Value to_json(const SceneInfo& info, const SceneOptions& options) {
           {"glass_bodies", info.glass_bodies},
           {"environment", info.environment},
           {"light_groups", info.light_groups},
+          {"lamp_profiles", std::move(profiles)},
           {"cameras", info.cameras.size()},
           {"camera_names", info.cameras},
           {"sphls", info.sphls.size()},
@@ -133,6 +140,12 @@ std::string to_text(const SceneInfo& info, const SceneOptions& options) {
   line("lights", fmt::format("{}, {}, {}", info.lights, counted(info.emissive_instances, "emissive instance"),
                              info.environment ? "environment" : "no environment"));
   line("light groups", list(info.light_groups));
+  if (!info.lamp_profiles.empty()) {
+    std::vector<std::string> profiles;
+    for (const auto& [lamp, profile] : info.lamp_profiles)
+      profiles.push_back(fmt::format("{} of {}", profile, lamp));
+    line("profiles", list(profiles));
+  }
   line("cameras", list(info.cameras));
   line("SPHLs", (info.sphls.empty() ? "" : fmt::format("{}: ", info.sphls.size())) + list(info.sphls));
   line("movable",

@@ -37,13 +37,15 @@ struct SceneInfo {
   std::size_t movable = 0;                         ///< nodes that are animated or stand below such
   bool environment = false;                        ///< there is one
   std::vector<std::string> light_groups;           ///< names, in order of first use
-  std::vector<std::string> cameras;                ///< names
-  std::vector<std::string> sphls;                  ///< names, of disabled ones too
-  std::vector<scene::ProbePlace> places;           ///< of the enabled SPHLs, at the options' time
-  float animation_seconds = 0;                     ///< time of the last key; 0 without animations
-  scene::Bounds bounds;              ///< of all vertices at the options' time, in metres; may be empty
-  Hash128 hash;                      ///< scene::scene_hash
-  std::vector<std::string> ignored;  ///< what its file holds and nothing uses, a line each
+  /// Lamps with a photometric profile, and the name of its file.
+  std::vector<std::pair<std::string, std::string>> lamp_profiles;
+  std::vector<std::string> cameras;       ///< names
+  std::vector<std::string> sphls;         ///< names, of disabled ones too
+  std::vector<scene::ProbePlace> places;  ///< of the enabled SPHLs, at the options' time
+  float animation_seconds = 0;            ///< time of the last key; 0 without animations
+  scene::Bounds bounds;                   ///< of all vertices at the options' time, in metres; may be empty
+  Hash128 hash;                           ///< scene::scene_hash
+  std::vector<std::string> ignored;       ///< what its file holds and nothing uses, a line each
 };
 
 /// Throws Error for a scene that cannot be read. Too short to be cancelled or to tell of its progress.

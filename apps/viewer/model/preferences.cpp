@@ -26,7 +26,7 @@ Preferences read_preferences(const std::filesystem::path& file) {
   const json::Value value = json::parse(read_text_file(file, 1 << 20), name);
   const json::Cursor in(value, name);
   in.expect_format(preferences_format, preferences_version);
-  in.members({"format", "version"}, {"recent", "side_width", "histogram", "false_color"});
+  in.members({"format", "version"}, {"recent", "side_width", "histogram", "waveform", "false_color"});
   if (in.has("recent")) {
     for (const json::Cursor& scene : json::elements(in["recent"]))
       preferences.recent.push_back(scene.text(4096));
@@ -34,6 +34,7 @@ Preferences read_preferences(const std::filesystem::path& file) {
   WindowLook& look = preferences.look;
   if (in.has("side_width")) look.side_width = in["side_width"].number(0, 1000);
   look.histogram = in.boolean_or("histogram", false);
+  look.waveform = in.boolean_or("waveform", false);
   look.false_color = in.boolean_or("false_color", false);
   return preferences;
 }
@@ -46,6 +47,7 @@ void write_preferences(const Preferences& preferences, const std::filesystem::pa
                            {"recent", preferences.recent},
                            {"side_width", preferences.look.side_width},
                            {"histogram", preferences.look.histogram},
+                           {"waveform", preferences.look.waveform},
                            {"false_color", preferences.look.false_color}};
   write_file(file, json::print(out, 2) + "\n");
 }

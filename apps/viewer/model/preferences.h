@@ -10,7 +10,7 @@ namespace ssphh::viewer {
 /// How the window was left.
 struct WindowLook {
   float side_width = 0;  ///< of the panels, in heights of the text; 0: as suits the window
-  bool histogram = false, false_color = false;
+  bool histogram = false, waveform = false, false_color = false;
 
   friend bool operator==(const WindowLook&, const WindowLook&) = default;
 };

@@ -12,6 +12,11 @@ namespace {
 
 constexpr float middle_grey = 0.18f;
 
+/// Where among the bins; below 0 or NaN: darker than all.
+float bin_of(float stops) {
+  return (stops + farthest_stop + 0.5f) * bins_per_stop;
+}
+
 }  // namespace
 
 float stops_of(float luminance, float exposure) {
@@ -34,7 +39,7 @@ StopHistogram stop_histogram(const image::Image& radiance, float exposure) {
     const auto width = static_cast<std::size_t>(radiance.width);
     const float stops =
         stops_of(luminance(radiance.rgb(static_cast<int>(i % width), static_cast<int>(i / width))), exposure);
-    const float at = (stops + farthest_stop + 0.5f) * bins_per_stop;
+    const float at = bin_of(stops);
     if (!(at >= 0)) {
       ++out.darker;
     } else if (at >= static_cast<float>(out.bins.size())) {
@@ -47,6 +52,43 @@ StopHistogram stop_histogram(const image::Image& radiance, float exposure) {
   for (float& bin : out.bins) bin *= share;
   out.darker *= share, out.brighter *= share;
   return out;
+}
+
+Waveform waveform(const image::Image& radiance, float exposure) {
+  Waveform out;
+  if (radiance.empty()) return out;
+  constexpr int enough = 250'000;
+  const int width = radiance.width, height = radiance.height;
+  const int step = static_cast<int>(static_cast<std::int64_t>(width) * height / enough) + 1;
+  for (int column = 0; column < waveform_columns; ++column) {
+    const auto edge = [&](int c) {
+      return static_cast<int>(static_cast<std::int64_t>(c) * width / waveform_columns);
+    };
+    const int from = edge(column), to = std::max(edge(column + 1), from + 1);
+    const float share = 1 / static_cast<float>((to - from) * ((height + step - 1) / step));
+    for (int y = 0; y < height; y += step) {
+      for (int x = from; x < to; ++x) {
+        const vec3 light = radiance.rgb(x, y);
+        for (int c = 0; c < 3; ++c) {
+          const float at = bin_of(stops_of(light[c], exposure));
+          const auto bin = at >= 0 ? std::min(at, static_cast<float>(stop_bins - 1)) : 0.0f;
+          out.channels[static_cast<std::size_t>(c)][static_cast<std::size_t>(column)]
+                      [static_cast<std::size_t>(bin)] += share;
+        }
+      }
+    }
+  }
+  return out;
+}
+
+Waveform wiped(Waveform left, const Waveform& right, float line) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t column = 0; column < waveform_columns; ++column) {
+      if ((static_cast<float>(column) + 0.5f) / waveform_columns >= line)
+        left.channels[c][column] = right.channels[c][column];
+    }
+  }
+  return left;
 }
 
 std::array<std::uint8_t, 3> color_of_stop(int stop) {

@@ -41,6 +41,8 @@ class Reference {
   /// Forgets the picture.
   void clear();
   JobStatus status() const { return job_.status(); }
+  /// Why the last picture failed, once; empty: it did not.
+  std::string take_error() { return job_.take_error(); }
 
  private:
   ReferenceImage image_;

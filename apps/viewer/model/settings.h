@@ -72,11 +72,11 @@ struct Settings {
   image::ToneCurve curve = image::ToneCurve::filmic;
   Show show = Show::realtime;
   DebugView debug = DebugView::none;
-  bool false_color = false, histogram = false;  ///< of luminance in stops
-  bool antialias = true;                        ///< while the picture stands still
-  std::vector<methods::Drawing> draw;           ///< what methods hold, over the picture
-  float wipe = 0.5f;                            ///< place of the line, share of the width
-  int block = 16;                               ///< pixels, of `pixelated`
+  bool false_color = false, histogram = false, waveform = false;  ///< of light in stops
+  bool antialias = true;                                          ///< while the picture stands still
+  std::vector<methods::Drawing> draw;                             ///< what methods hold, over the picture
+  float wipe = 0.5f;                                              ///< place of the line, share of the width
+  int block = 16;                                                 ///< pixels, of `pixelated`
   std::string against =
       "path";  ///< what the truth's place holds: path, or a method of methods::all_methods()
   int truth_depth = rays::usual_max_depth;  ///< scattering events of the ground truth

@@ -34,9 +34,10 @@ void draw_welcome(const App& app) {
   }
 }
 
-/// A line over the picture's upper edge: what the user may want to do next.
-void draw_offer(App& app) {
-  if (!app.scene_open() || !app.light.empty() || app.job.running()) return;
+/// A line over the picture's upper edge: what the user may want to do next. Returns its height with the
+/// margin.
+float draw_offer(App& app) {
+  if (!app.panels || !app.scene_open() || !app.light.empty() || app.job.running()) return 0;
   const Rect2& r = app.viewport;
   ImGui::SetNextWindowPos({r.x + 0.5f * r.width, r.y + 14}, ImGuiCond_Always, {0.5f, 0});
   ImGui::SetNextWindowBgAlpha(0.85f);
@@ -55,13 +56,16 @@ void draw_offer(App& app) {
   const char* place = r.width > 20 * ImGui::GetFontSize() ? "Place probes and light them" : "Place probes";
   if (r.width > 39 * ImGui::GetFontSize()) ImGui::SameLine();
   if (ImGui::Button(place)) attempt(app, [&] { app.place_probes(0); });
+  const float high = ImGui::GetWindowHeight() + 14;
   ImGui::End();
+  return high;
 }
 
-void draw_message(App& app) {
+/// Over its lower edge: what was done, or went wrong. Returns its height with the margin.
+float draw_message(App& app) {
   const double age = app.window.seconds() - app.message_since;
   const double stays = app.message_is_error ? 15 : 4;
-  if (app.message.empty() || age > stays) return;
+  if (app.message.empty() || age > stays) return 0;
   const Rect2& r = app.viewport;
   ImGui::SetNextWindowPos({r.x + 0.5f * r.width, r.y + r.height - 14}, ImGuiCond_Always, {0.5f, 1});
   ImGui::SetNextWindowBgAlpha(0.85f);
@@ -71,7 +75,9 @@ void draw_message(App& app) {
   ImGui::TextUnformatted(app.message.c_str());
   ImGui::PopTextWrapPos();
   if (app.message_is_error) ImGui::PopStyleColor();
+  const float high = ImGui::GetWindowHeight() + 14;
   ImGui::End();
+  return high;
 }
 
 }  // namespace
@@ -108,9 +114,9 @@ void draw_panels(App& app) {
   app.viewport = {left, top, std::max(width - left, 1.0f), std::max(height - top - bottom, 1.0f)};
   if (app.panels) draw_time_bar(app);
   if (!app.scene_open()) draw_welcome(app);
-  if (app.panels) draw_offer(app);
-  draw_message(app);
-  draw_readings(app);
+  const float above = draw_offer(app), below = draw_message(app);
+  const Rect2& r = app.viewport;
+  draw_readings(app, {r.x, r.y + above, r.width, r.height - above - below});
   draw_inspector(app);
   draw_help(app);
   draw_file_dialog(app);

@@ -99,6 +99,7 @@ void draw_view_menu(App& app) {
   ImGui::MenuItem("Lobes", "L", &s.lobes);
   ImGui::MenuItem("Graph of the hierarchy", "G", &s.graph);
   ImGui::MenuItem("Histogram", "J", &s.histogram);
+  ImGui::MenuItem("Waveform", "U", &s.waveform);
   ImGui::MenuItem("False colours", "K", &s.false_color);
   ImGui::MenuItem("Panels", "Tab", &app.panels);
   if (ImGui::MenuItem("Values under the mouse", "I", app.inspecting)) app.toggle_inspector();

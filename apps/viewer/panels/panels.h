@@ -31,8 +31,9 @@ void draw_stats_panel(App& app);
 void draw_farm_panel(App& app);
 void draw_time_bar(App& app);
 void draw_help(App& app);
-/// Over the picture: the histogram, and the legend of false colours.
-void draw_readings(App& app);
+/// Over the picture: the histogram, the waveform, and the legend of false colours,
+/// in the part of the picture that nothing else covers.
+void draw_readings(App& app, const Rect2& room);
 /// What stands under the mouse, or at the pinned point, and what lights it.
 void draw_inspector(App& app);
 /// Lets the user choose the file of App::dialog, and opens or writes it.

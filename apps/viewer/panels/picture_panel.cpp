@@ -47,6 +47,7 @@ void draw_picture_panel(App& app) {
   if (app.settings.debug == DebugView::leak)
     note("Looked-up indirect light on places where path tracing finds next to none, as it comes in.");
   setting_widget(app, "histogram (J)", "histogram");
+  setting_widget(app, "waveform (U)", "waveform");
   setting_widget(app, "false colours (K)", "false-color");
   setting_widget(app, "method's marks", "draw");
   if (app.marks.status().running) note(fmt::format("drawing {} …", app.marks.status().stage));

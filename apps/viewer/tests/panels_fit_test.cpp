@@ -109,15 +109,55 @@ TEST_F(PanelsFit, HelpQuestionsMessagesAndWork) {
   }
 }
 
-TEST_F(PanelsFit, HistogramAndLegend) {
+TEST_F(PanelsFit, HistogramWaveformAndLegend) {
   for (const Screen& screen : screens) {
     open_on(screen);
-    app().settings.histogram = app().settings.false_color = true;
-    app().histogram.emplace(), app().truth_histogram.emplace();
+    app().settings.histogram = app().settings.waveform = app().settings.false_color = true;
+    app().histogram.emplace(), app().truth_histogram.emplace(), app().waveform.emplace();
     for (int i = 0; i < 3; ++i) rest();
     expect_whole("readings");
     EXPECT_TRUE(shows("darker") && shows("white line")) << where_;
     EXPECT_TRUE(shows("+8")) << where_;
+    const bool small = screen.width < 1000 && screen.scale > 1;
+    EXPECT_NE(shows("red, green, blue"), small) << where_ << "left out where there is no room";
+    for (const DrawnThing& thing : all_things()) {
+      if (!thing.text.starts_with("red, green")) continue;
+      EXPECT_GE(thing.from.y, app().viewport.y) << where_;
+    }
+  }
+}
+
+TEST_F(PanelsFit, WhatIsOverThePictureCoversNothingOfItsKind) {
+  for (const Screen& screen : screens) {
+    open_on(screen);
+    app().settings.histogram = app().settings.waveform = app().settings.false_color = true;
+    app().histogram.emplace(), app().truth_histogram.emplace(), app().waveform.emplace();
+    for (const bool more : {false, true}) {
+      if (more) app().light.clear(), app().say("a message of some length that tells what was done");
+      for (int i = 0; i < 4; ++i) rest();
+      std::vector<std::pair<std::string, Rect2>> windows;
+      const ImDrawData& data = *ImGui::GetDrawData();
+      for (int i = 0; i < data.CmdListsCount; ++i) {
+        const std::string name = data.CmdLists[i]->_OwnerName;
+        if (name != "plots" && name != "legend" && name != "offer" && name != "message") continue;
+        // The first thing that a window draws is its ground.
+        const DrawnThing ground = drawn_things(*data.CmdLists[i]).front();
+        windows.push_back(
+            {name, {ground.from.x, ground.from.y, ground.to.x - ground.from.x, ground.to.y - ground.from.y}});
+      }
+      EXPECT_GE(windows.size(), more ? 2u : 1u) << where_;
+      const Rect2& v = app().viewport;
+      for (const auto& [name, a] : windows) {
+        EXPECT_GE(a.y, v.y) << where_ << name;
+        EXPECT_LE(a.x + a.width, v.x + v.width) << where_ << name;
+        for (const auto& [other, b] : windows) {
+          if (name >= other) continue;
+          const bool apart =
+              a.x + a.width <= b.x || b.x + b.width <= a.x || a.y + a.height <= b.y || b.y + b.height <= a.y;
+          EXPECT_TRUE(apart) << where_ << name << " and " << other;
+        }
+      }
+    }
   }
 }
 

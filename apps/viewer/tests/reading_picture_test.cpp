@@ -1,5 +1,5 @@
-// Histogram and false colours as a user sees them: over the real-time and the traced picture, by keys, kept
-// for the next session.
+// Histogram, waveform and false colours as a user sees them: over the real-time and the traced picture, by
+// keys, kept for the next session.
 
 #include <gmock/gmock.h>
 
@@ -70,6 +70,43 @@ TEST_F(ReadPicture, IsCountedAndSoIsTheTruth) {
   EXPECT_FALSE(app().histogram);
 }
 
+TEST_F(ReadPicture, HasAWaveformOfWhatIsShown) {
+  app().open("builtin:two-rooms");
+  play("camera room-a");
+  EXPECT_FALSE(app().waveform);
+  play("key U");
+  ASSERT_TRUE(app().waveform);
+  const auto of = [&](float ev) { return waveform(app().picture.linear(), ev).channels; };
+  EXPECT_EQ(app().waveform->channels, of(0));
+  play("set exposure 2");
+  EXPECT_EQ(app().waveform->channels, of(2));
+  play("set show truth");
+  const auto truth = waveform(*app().reference.image().color, 2);
+  EXPECT_EQ(app().waveform->channels, truth.channels);
+  play("set show wipe");
+  play("set wipe 0.25");
+  EXPECT_EQ(app().waveform->channels, wiped(waveform(app().picture.linear(), 2), truth, 0.25f).channels);
+  play("set show realtime\nkey U");
+  EXPECT_FALSE(app().waveform);
+}
+
+TEST_F(ReadPicture, WhoseTruthFailsSaysSo) {
+  app().open("builtin:two-rooms");
+  play("camera room-a");
+  scene::Scene scene = *app().document.scene;
+  for (scene::Node& node : scene.nodes) node.movable = true;
+  app().take_document(make_document("builtin:stage", std::move(scene), 0));
+  play("set against prt\nset show wipe");
+  EXPECT_THAT(app().message, testing::HasSubstr("no surface that stands still"));
+  EXPECT_TRUE(app().message_is_error);
+  EXPECT_EQ(app().settings.show, Show::realtime) << "it is not begun again and again";
+  EXPECT_FALSE(app().reference.status().running);
+  app().message.clear();
+  play("set against path\nset show truth");
+  EXPECT_EQ(app().message, "");
+  EXPECT_TRUE(app().reference.image().color);
+}
+
 class Readings : public PanelStage {};
 
 TEST_F(Readings, LegendAndHistogramSayTheirUnits) {
@@ -88,6 +125,11 @@ TEST_F(Readings, LegendAndHistogramSayTheirUnits) {
   app().truth_histogram.emplace();
   rest();
   EXPECT_TRUE(shows("white line: traced"));
+  EXPECT_FALSE(shows("red, green, blue"));
+  app().waveform.emplace();
+  press({'U'});
+  rest();
+  EXPECT_TRUE(shows("red, green, blue over columns"));
 }
 
 class KeptLook : public AppStage {};
@@ -96,7 +138,7 @@ TEST_F(KeptLook, OfTheWindowComesBack) {
   options_.preferences = dir_ / "config" / "preferences.json";
   start(1280, 800);
   app().turn({});
-  app().settings.histogram = true;
+  app().settings.histogram = app().settings.waveform = true;
   const float usual = app().viewport.x;
   app().side_width = 21.5f;
   turn();
@@ -105,6 +147,7 @@ TEST_F(KeptLook, OfTheWindowComesBack) {
   start(1280, 800);
   turn();
   EXPECT_TRUE(app().settings.histogram);
+  EXPECT_TRUE(app().settings.waveform);
   EXPECT_FALSE(app().settings.false_color);
   EXPECT_EQ(app().viewport.x, width);
   app().side_width = 0;

@@ -52,14 +52,14 @@ TEST(Settings, EveryNameSetsAndTellsItsValue) {
 /// The defaults of the tool's options, of scripts and of the panels.
 TEST(Settings, StartAtTheirDefaults) {
   const std::map<std::string, std::string> wanted = {
-      {"exposure", "auto"}, {"tonemap", "filmic"},    {"debug", "none"},    {"scale", "1"},
-      {"wipe", "0.5"},      {"indirect-scale", "3"},  {"show", "realtime"}, {"block", "16"},
-      {"against", "path"},  {"truth-depth", "25"},    {"degree", "4"},      {"truth-spp", "256"},
-      {"hier", "off"},      {"lookup", "irradiance"}, {"layer", "sum"},     {"weights", "surface"},
-      {"operator", "mean"}, {"neighbors", "-1"},      {"threshold", "0"},   {"balls", "off"},
-      {"ball", "radiance"}, {"ball-size", "0"},       {"lobes", "off"},     {"graph", "off"},
-      {"names", "off"},     {"play", "off"},          {"speed", "0.5"},     {"antialias", "on"},
-      {"histogram", "off"}, {"false-color", "off"},   {"draw", "none"}};
+      {"exposure", "auto"}, {"tonemap", "filmic"},    {"debug", "none"},      {"scale", "1"},
+      {"wipe", "0.5"},      {"indirect-scale", "3"},  {"show", "realtime"},   {"block", "16"},
+      {"against", "path"},  {"truth-depth", "25"},    {"degree", "4"},        {"truth-spp", "256"},
+      {"hier", "off"},      {"lookup", "irradiance"}, {"layer", "sum"},       {"weights", "surface"},
+      {"operator", "mean"}, {"neighbors", "-1"},      {"threshold", "0"},     {"balls", "off"},
+      {"ball", "radiance"}, {"ball-size", "0"},       {"lobes", "off"},       {"graph", "off"},
+      {"names", "off"},     {"play", "off"},          {"speed", "0.5"},       {"antialias", "on"},
+      {"histogram", "off"}, {"waveform", "off"},      {"false-color", "off"}, {"draw", "none"}};
   std::map<std::string, std::string> got;
   for (const SettingName& setting : setting_names()) got[setting.name] = setting.get(Settings{});
   EXPECT_EQ(got, wanted);
@@ -103,6 +103,7 @@ TEST(Settings, GoWhereTheirNameSays) {
       {"tonemap", "clip", [](Settings& s) { s.curve = image::ToneCurve::clip; }},
       {"debug", "leak", [](Settings& s) { s.debug = DebugView::leak; }},
       {"histogram", "on", [](Settings& s) { s.histogram = true; }},
+      {"waveform", "on", [](Settings& s) { s.waveform = true; }},
       {"false-color", "on", [](Settings& s) { s.false_color = true; }},
       {"draw", "voxels", [](Settings& s) { s.draw = {methods::Drawing::voxels}; }},
       {"antialias", "off", [](Settings& s) { s.antialias = false; }},

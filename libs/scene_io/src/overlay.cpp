@@ -360,8 +360,9 @@ void apply(Scene& scene, std::string_view text, const std::filesystem::path& pat
     if (!scene.environment) turn->fail("the scene has no environment");
     scene.environment->rotation += glm::radians(turn->number(-3600, 3600));
   }
-  if (const auto factors = root.find("light_factors")) scale_groups(scene, *factors);
+  // A surface that a factor turns off is in no group any more.
   if (const auto modes = root.find("light_modes")) read_light_modes(scene, *modes);
+  if (const auto factors = root.find("light_factors")) scale_groups(scene, *factors);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <ssphh/core/log.h>
 #include <ssphh/image/io.h>
 #include <ssphh/image/transfer.h>
+#include <ssphh/scene/builtin.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/scene_io/load.h>
 #include <ssphh/scene_io/overlay.h>
@@ -243,6 +244,16 @@ TEST(Overlay, LiesOnOthersAndLeavesOutWhatTheyHave) {
   EXPECT_EQ(scene.cameras[0].yheight, 4);
   EXPECT_EQ(scene.environment->color, vec3(3));
   EXPECT_FLOAT_EQ(scene.environment->rotation, pi / 2);
+}
+
+TEST(Overlay, GivesModesToGroupsThatItTurnsOff) {
+  Scene scene = scene::make_builtin("gallery1");
+  apply_overlay(scene, R"({"light_factors": {"cove": [0, 0, 0]}, "light_modes": {"cove": "diffuse"}})",
+                "x.json");
+  ASSERT_EQ(scene.light_modes.size(), 1u);
+  EXPECT_EQ(scene.light_modes[0].group, "cove");
+  EXPECT_EQ(scene::light_groups(scene), (std::vector<std::string>{"back", "right"}))
+      << "surfaces that send out nothing are no emitters";
 }
 
 TEST(Overlay, PutsToneCurvesIntoTheTexturesOfAName) {
