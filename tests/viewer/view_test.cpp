@@ -218,11 +218,11 @@ std::vector<pid_t> workers_of(pid_t parent) {
 
 TEST_F(View, AKilledWorkerOfItsFarmCostsARetryAndNoBit) {
   const auto bake = [&](const std::string& name) {
-    return script("gen\nsettle\nsave " + path(name) + "\nquit\n");
+    return script("settle\ngen\nsettle\nsave " + path(name) + "\nquit\n");
   };
-  const std::vector<std::string> small = {"view",     "builtin:two-rooms", "--size",    "64x64",
-                                          "--probes", "auto:1.3",          "--records", "0",
-                                          "--json",   "--no-panels",       "--script"};
+  const std::vector<std::string> small = {"view",    "builtin:two-rooms", "--size", "64x64",  "--probes",
+                                          "auto:3",  "--records",         "0",      "--json", "--no-panels",
+                                          "--script"};
   test::ToolProcess viewer(
       joined(small, {bake("farm.sphl"), "--local", "2", "--cache", "none", "--progress", "plain"}));
   ASSERT_TRUE(viewer.wait_for_stderr("2 workers")) << viewer.stderr_so_far();
