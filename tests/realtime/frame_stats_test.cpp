@@ -229,6 +229,16 @@ TEST_F(FrameStatsTest, SizesOfMapsAreThoseThatAreAskedFor) {
     return Renderer(gl(), scene_, params).memory_bytes();
   };
   EXPECT_EQ(bytes({.light_map_size = 64}) - bytes({.light_map_size = 32}), 8u * 4 * (64 * 64 - 32 * 32));
+  // Of a sun six cascades, halved until all fit
+  scene::Scene sunny = scene_;
+  sunny.lights.emplace_back().type = scene::LightType::directional;
+  sunny.lights.back().node = 0;
+  const auto of_sun = [&](int size, std::size_t most) {
+    return Renderer(gl(), sunny, {.sun_map_size = size, .sun_map_bytes = most}).memory_bytes();
+  };
+  constexpr std::size_t whole_sun = 8u * 4 * 64 * 64;
+  EXPECT_EQ(of_sun(64, whole_sun) - of_sun(32, whole_sun), 8u * 4 * (64 * 64 - 32 * 32));
+  EXPECT_EQ(of_sun(64, whole_sun - 1), of_sun(32, whole_sun));
   // Of probes the largest power of two of 32 to 256 texels that fits
   const auto with_probe = [&](std::size_t most) {
     Renderer renderer(gl(), scene_, {.probe_map_bytes = most});

@@ -67,8 +67,7 @@ class SurfaceSamples {
   std::array<std::vector<std::uint8_t>, 2> alive_, narrow_;  ///< of each side; narrow_: 0 where nobody asked
   std::vector<std::int32_t> verdicts_;
   std::vector<float> weights_;
-  std::array<std::vector<float>, 2>
-      asked_;  ///< weight of all that were counted in, seen or not, of each side
+  std::array<std::vector<float>, 2> asked_;  ///< weight on either side of all, seen or not
 };
 
 }  // namespace ssphh::probes
