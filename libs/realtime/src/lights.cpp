@@ -379,10 +379,6 @@ int Lights::update_maps(const GpuScene& scene, gl::Program& opaque, gl::Program&
   return drawn;
 }
 
-void Lights::invalidate_all() {
-  for (MapAtlas* atlas : {&lamps_, &areas_, &suns_, &skies_}) atlas->invalidate_all();
-}
-
 void Lights::bind() const {
   distant_buffer_.bind_uniform(binding::distant_block);
   lamps_.texture().bind(unit::light_maps);

@@ -48,7 +48,9 @@ class Lights {
                FrameCounters& counters);
   int update_maps(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, gl::Program* glass,
                   int most, int& waiting, FrameCounters& counters);
-  void invalidate_all();
+  void invalidate_all() {
+    for (MapAtlas* atlas : {&lamps_, &areas_, &suns_, &skies_}) atlas->invalidate_all();
+  }
   /// Call it after update_maps.
   void update_bounds(Shaders& shaders, const gl::VertexArray& no_vertices, FrameCounters& counters) {
     if (bounds_) bounds_->update(suns_, shaders, no_vertices, counters);
