@@ -2,6 +2,8 @@
 /// The glowing balls of VIZ (docs/conventions.md, theory: every ray that meets ball j before a surface sees
 /// radiance 1 of it and goes on), as trace_path asks for them. Group j is ball j.
 
+#include <algorithm>
+
 #include <ssphh/rays/radiance_source.h>
 
 #include "path.h"
@@ -41,6 +43,10 @@ class GhostEmitters {
   std::optional<shading::LightSample> sample(const PathVertex& vertex, float u_choice, const vec2& u) const;
 
   bool found_by_rays(const PathVertex&) const { return true; }
+  bool may_meet(const PathVertex&, const Ray& ray) const {
+    return std::ranges::any_of(
+        balls_, [&](const Ball& ball) { return meets(ball, ray, std::numeric_limits<float>::infinity()); });
+  }
 
   /// Whether the ray meets the ball (its surface, or it starts inside) before `distance`.
   static bool meets(const Ball& ball, const Ray& ray, float distance);

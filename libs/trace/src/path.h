@@ -152,6 +152,7 @@ inline bool choose_glass(shading::Surface& surface, const vec3& wo, const PathSa
 ///   surface(vertex, ray, hit, surface, visit)     the same for the surface it hits
 ///   sample(vertex, u_choice, u)                   optional<shading::LightSample>
 ///   found_by_rays(vertex)                         whether rays that leave it can meet any light
+///   may_meet(vertex, ray)                         whether this one might, were nothing in its way
 /// `Visitor` receives first_hit(surface, ray_origin, ray, hit), of the first surface that the path does not
 /// go straight through, and add(depth, group, value, emission), `emission` being the direction in which the
 /// light left its emitter; where the options ask for it, also look_up(throughput, surface, ray_origin, ray,
@@ -173,6 +174,8 @@ void trace_path(const PosedGeometry& scene, const Emitters& emitters, Ray ray, c
     vec3 ray_origin;
     PathSampler::Vertex random;
     const bool last = depth >= options.max_depth;
+    // The last ray of a path looks for lights alone.
+    if (last && depth > 0 && !emitters.may_meet(vertex, ray)) return;
     for (bool straight = true; straight;) {
       const bool found = scene.intersect(ray, sampler.passage(scene, vertices, false), task, hit);
       const float distance = found ? hit.distance : std::numeric_limits<float>::infinity();

@@ -13,20 +13,6 @@ namespace {
 
 std::atomic<RayRecording*> ray_recording{nullptr};
 
-bool has_found_by_rays(const scene::Scene& scene) {
-  if (scene.environment) return true;
-  for (const scene::Light& light : scene.lights) {
-    if (light.type == scene::LightType::sphere) return true;
-    if (light.type == scene::LightType::directional && light.angular_radius > 0) return true;
-  }
-  for (const scene::Instance& instance : scene.instances) {
-    if (instance.mesh < 0) continue;
-    const int material = scene::instance_material(scene, instance);
-    if (material >= 0 && scene.materials[material].emissive()) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 void set_ray_recording(RayRecording* recording) {
@@ -41,8 +27,7 @@ TracerData::TracerData(SharedGeometry geometry_in, std::shared_ptr<const scene::
       world(scene::world_matrices(scene, time_in)),
       lights(scene, world, time),
       shaded(std::move(geometry_in), scene),
-      geometry(shaded, shaded.layout().poses(scene, time_in)),
-      found_by_rays(has_found_by_rays(scene)) {}
+      geometry(shaded, shaded.layout().poses(scene, time_in)) {}
 
 const Hash128& TracerData::scene_hash() const {
   std::call_once(hash_once, [this] { hash = scene::scene_hash(scene); });

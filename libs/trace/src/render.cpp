@@ -186,7 +186,7 @@ void run_passes(const TracerData& data, const rays::IndirectLight* indirect, con
     sampled = data.lights.without(looked_up);
     mirrored = mirrored_lights(data.lights, indirect->mirrored_groups());
   }
-  const SceneEmitters emitters(data.lights, sampled ? *sampled : data.lights, data.found_by_rays,
+  const SceneEmitters emitters(data.lights, sampled ? *sampled : data.lights,
                                mirrored ? &*mirrored : nullptr);
   const Tile tile = tile_of(params);
   const auto width = static_cast<std::uint64_t>(tile.width), height = static_cast<std::uint64_t>(tile.height);

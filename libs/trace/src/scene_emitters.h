@@ -1,22 +1,23 @@
 #pragma once
 /// The scene's own lights, as trace_path asks for them.
 
+#include "found_by_rays.h"
 #include "path.h"
 
 namespace ssphh::trace {
 
 class SceneEmitters {
  public:
-  /// `found_by_rays`: whether the scene has lights that are not points in space or direction. `sampled`:
-  /// those whose light comes straight to surfaces with a lookup. `mirrored`, if not null: those at infinity
-  /// that such surfaces mirror, too, but have from the lookup otherwise.
-  SceneEmitters(const shading::LightSet& lights, const shading::LightSet& sampled, bool found_by_rays,
+  /// `sampled`: those whose light comes straight to surfaces with a lookup. `mirrored`, if not null: those at
+  /// infinity that such surfaces mirror, too, but have from the lookup otherwise.
+  SceneEmitters(const shading::LightSet& lights, const shading::LightSet& sampled,
                 const shading::LightSet* mirrored = nullptr)
-      : lights_(lights), sampled_(sampled), mirrored_(mirrored), found_by_rays_(found_by_rays) {
-    for (int i = 0; i < sampled.emitter_count(); ++i) sampled_by_rays_ |= !sampled.emitter(i).delta();
-  }
-  SceneEmitters(const shading::LightSet& lights, bool found_by_rays)
-      : lights_(lights), sampled_(lights), found_by_rays_(found_by_rays), sampled_by_rays_(found_by_rays) {}
+      : lights_(lights),
+        sampled_(sampled),
+        mirrored_(mirrored),
+        by_rays_(lights),
+        sampled_by_rays_(sampled) {}
+  explicit SceneEmitters(const shading::LightSet& lights) : SceneEmitters(lights, lights) {}
 
   template <class Visit>
   void along(int /*depth*/, const PathVertex& vertex, const Ray& ray, float distance,
@@ -54,7 +55,10 @@ class SceneEmitters {
   }
 
   bool found_by_rays(const PathVertex& vertex) const {
-    return vertex.looked_up ? sampled_by_rays_ || vertex.mirrored != vec3(0) : found_by_rays_;
+    return vertex.looked_up ? sampled_by_rays_.any() || vertex.mirrored != vec3(0) : by_rays_.any();
+  }
+  bool may_meet(const PathVertex& vertex, const Ray& ray) const {
+    return vertex.looked_up ? sampled_by_rays_.on(ray) || vertex.mirrored != vec3(0) : by_rays_.on(ray);
   }
   /// Whether surfaces with a lookup mirror emitters that it holds.
   bool mirrored() const { return mirrored_ != nullptr; }
@@ -67,7 +71,7 @@ class SceneEmitters {
   const shading::LightSet& lights_;
   const shading::LightSet& sampled_;
   const shading::LightSet* mirrored_ = nullptr;
-  bool found_by_rays_, sampled_by_rays_ = false;
+  FoundByRays by_rays_, sampled_by_rays_;
 };
 
 }  // namespace ssphh::trace

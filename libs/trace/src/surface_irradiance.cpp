@@ -38,9 +38,9 @@ class BatchSums {
 
 /// One path from the point, as if it reflected all light evenly: a light sample and a cosine-distributed ray
 /// that goes on.
-void trace_from(const TracerData& data, const rays::SurfacePoint& point, float gap,
-                const PathSampler& sampler, const PathOptions& options, RayTask& task, BatchSums& sums) {
-  const SceneEmitters emitters = data.emitters();
+void trace_from(const TracerData& data, const SceneEmitters& emitters, const rays::SurfacePoint& point,
+                float gap, const PathSampler& sampler, const PathOptions& options, RayTask& task,
+                BatchSums& sums) {
   const vec3 start = above_surface(point.position, point.normal, gap);
   PathVertex vertex{point.position, point.normal};
   SampleSequence random = sampler.camera();
@@ -122,13 +122,14 @@ std::vector<rays::IrradianceEstimate> PathTracer::surface_irradiance(
       [&](std::size_t task_id, std::size_t) {
         control.check();
         TaskScope scope(*data_, invalid, task_id);
+        const SceneEmitters emitters = data_->emitters();
         BatchSums sums(data_->looked_up, scope.task);
         const std::size_t i = task_id / batches, batch = task_id % batches;
         const std::uint64_t seed =
             pixel_seed(path.seed, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(batch));
         const std::uint64_t count = first_path(batch + 1) - first_path(batch);
         for (std::uint32_t s = 0; s < count; ++s)
-          trace_from(*data_, points[i], gap, {seed, s}, {path.max_depth}, scope.task, sums);
+          trace_from(*data_, emitters, points[i], gap, {seed, s}, {path.max_depth}, scope.task, sums);
         const float scale = 1 / static_cast<float>(count);
         means[task_id] = {sums.direct * scale, sums.indirect * scale};
         stage.advance(count);

@@ -27,13 +27,12 @@ struct TracerData {
   shading::LightSet lights;
   ShadedGeometry shaded;
   PosedGeometry geometry;
-  bool found_by_rays;          ///< some light is no point
   std::vector<int> looked_up;  ///< light groups whose direct light counts as indirect at given points
   mutable SharedCount rays;
   mutable std::once_flag hash_once;
   mutable Hash128 hash;
 
-  SceneEmitters emitters() const { return {lights, found_by_rays}; }
+  SceneEmitters emitters() const { return SceneEmitters(lights); }
   std::size_t group_count() const { return lights.groups().size(); }
   const Hash128& scene_hash() const;
 };
