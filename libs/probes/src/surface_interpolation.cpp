@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/require.h>
@@ -54,18 +55,34 @@ geometry::Balls surface_reach(std::span<const rays::SurfacePoint> points, std::s
   return {centres, radii};
 }
 
-bool see_along_surface(const rays::SurfacePoint& a, const rays::SurfacePoint& b, float spacing,
+float headroom(const rays::SurfacePoint& point, float most, float least, const SeesProbe& sees) {
+  require(sees != nullptr, "surface points", "nothing tells what sees them");
+  constexpr float lower = 0.7f;
+  const vec3 low = point.position + least * point.normal;
+  for (float lift = most; lift > least; lift *= lower)
+    if (sees(low, point.position + lift * point.normal)) return lift;
+  return 0;
+}
+
+bool see_along_surface(const rays::SurfacePoint& a, const rays::SurfacePoint& b, float spacing, float room,
                        const SeesProbe& sees) {
   require(sees != nullptr, "surface points", "nothing tells what sees them");
+  const auto see_each_other = [&](float lift) {
+    return sees(a.position + lift * a.normal, b.position + lift * b.normal);
+  };
   const float least = fitted_lift * spacing;
-  const vec3 low_a = a.position + least * a.normal, low_b = b.position + least * b.normal;
   // Between points of a sphere the surface rises to an eighth of what their normals part.
   const float bulge = glm::dot(b.normal - a.normal, b.position - a.position);
   const float over_bulge = fitted_lift_over_bulges * bulge;
-  if (!(over_bulge > 0.1f * least) && sees(low_a, low_b)) return true;
-  const float lift = std::max(over_bulge, fitted_hop * spacing);
-  const vec3 high_a = low_a + lift * a.normal, high_b = low_b + lift * b.normal;
-  return sees(high_a, high_b) && sees(low_a, high_a) && sees(low_b, high_b);
+  if (!(over_bulge > 0.1f * least) && see_each_other(least)) {
+    const float high = std::min(fitted_roof * spacing, room);
+    return !(high > least) || see_each_other(high);
+  }
+  const float high = least + std::max(over_bulge, fitted_hop * spacing);
+  const auto rises = [&](const rays::SurfacePoint& point) {
+    return sees(point.position + least * point.normal, point.position + high * point.normal);
+  };
+  return see_each_other(high) && rises(a) && rises(b);
 }
 
 int surface_cover(const rays::SurfacePoint& point, float spacing, const SeesProbe& sees) {
@@ -103,8 +120,9 @@ SurfaceInterpolation::SurfaceInterpolation(std::span<const rays::SurfacePoint> p
   require(sees_ != nullptr, "surface points", "nothing tells what sees them");
   parallel_for(points.size(), 64, [&](std::size_t i) {
     const int cover = spacings[i] > 0 ? surface_cover(points[i], spacings[i], sees_) : 0;
+    const float room = headroom(points[i], fitted_roof * spacings[i], fitted_lift * spacings[i], sees_);
     points_[i] = {points[i].position, spacings[i], glm::round(32767.0f * points[i].normal),
-                  static_cast<std::uint8_t>(cover)};
+                  static_cast<std::uint8_t>(cover), room};
   });
 }
 
@@ -134,6 +152,14 @@ std::span<const SurfaceShare> SurfaceInterpolation::at(const rays::SurfacePoint&
   float left = 0;
   for (std::size_t i = 0; i < count; ++i) left += shares[i].weight;
 
+  // How high the place can rise, for the coarsest of them and the finest
+  float finest = std::numeric_limits<float>::infinity(), coarsest = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float spacing = points_[shares[i].point].spacing;
+    finest = std::min(finest, spacing), coarsest = std::max(coarsest, spacing);
+  }
+  const float room = headroom(at, fitted_roof * coarsest, fitted_lift * finest, sees_);
+
   const Frame frame = Frame::around(n);
   Places places;
   std::size_t used = 0;
@@ -145,7 +171,8 @@ std::span<const SurfaceShare> SurfaceInterpolation::at(const rays::SurfacePoint&
     const float spacing = point.spacing;
     const vec3 offset = point.position - x;
     if (glm::dot(offset, offset) > 1e-6f * spacing * spacing &&
-        !see_along_surface(at, {point.position, vec3(point.normal) / 32767.0f}, spacing, sees_))
+        !see_along_surface(at, {point.position, vec3(point.normal) / 32767.0f}, spacing,
+                           std::min(room, point.room), sees_))
       continue;
     if (used == 0) unit = spacing;
     const vec3 local = frame.to_local(offset) / unit;

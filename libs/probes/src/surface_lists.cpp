@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include <fmt/format.h>
 
@@ -15,13 +14,11 @@
 
 #include "still_surface.h"
 #include "surface_entry.h"
+#include "surface_grids.h"
 #include "surface_samples.h"
 
 namespace ssphh::probes {
 namespace {
-
-/// Side of a cell, in spacings of points.
-constexpr float cell_share = 2.0f / 3;
 
 /// Sight begins above the surface by shares of a point's spacing, or of so many cells where that is less: far
 /// points of a plain, hundreds of metres apart, would be seen from above the roofs by what lies under a
@@ -67,10 +64,13 @@ class Preparation {
         sees_(sees),
         spacings_(surface_spacings(out.points)),
         reach_(surface_reach(out.points, spacings_)) {
-    place_grids();
+    out_.grids = surface_grids(triangles_, out_.points, spacings_);
     cover_.resize(out_.points.size());
-    parallel_for(cover_.size(), 64,
-                 [&](std::size_t i) { cover_[i] = surface_cover(out_.points[i], spacings_[i], sees_); });
+    room_.resize(out_.points.size());
+    parallel_for(cover_.size(), 64, [&](std::size_t i) {
+      cover_[i] = surface_cover(out_.points[i], spacings_[i], sees_);
+      room_[i] = headroom(out_.points[i], fitted_roof * spacings_[i], fitted_lift * spacings_[i], sees_);
+    });
   }
 
   void run(const Control& control) {
@@ -99,66 +99,6 @@ class Preparation {
   }
 
  private:
-  void place_grids() {
-    scene::Bounds all;
-    for (const StillTriangle& t : triangles_) all.add(t.a), all.add(t.b), all.add(t.c);
-    std::vector<std::uint32_t> points(spacings_.size());
-    std::iota(points.begin(), points.end(), 0);
-    const float spacing = median_spacing(points);
-    out_.grids[0] = grid_over(all, spacing);
-    if (out_.grids[0].cell_size <= cell_share * spacing) return;
-
-    const scene::Bounds dense = where_dense(all, spacing);
-    std::erase_if(points, [&](std::uint32_t p) {
-      const vec3& place = out_.points[p].position;
-      return place == glm::clamp(place, dense.min, dense.max);
-    });
-    out_.grids[0] = grid_over(dense, spacing);
-    constexpr float far = 8;  // where there are no points: what reaches out of the first is all
-    out_.grids[1] =
-        grid_over(all, points.empty() ? far * spacing : std::max(spacing, median_spacing(points)));
-  }
-
-  float median_spacing(std::span<const std::uint32_t> points) const {
-    std::vector<float> sorted;
-    for (const std::uint32_t p : points) sorted.push_back(spacings_[p]);
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::ranges::nth_element(sorted, middle);
-    return *middle;
-  }
-
-  /// What holds nearly all points that are not much farther apart than the median, and what they reach.
-  scene::Bounds where_dense(const scene::Bounds& all, float spacing) const {
-    constexpr std::size_t left_out = 200;  // one of so many at each end of each axis
-    std::vector<vec3> places;
-    for (std::size_t p = 0; p < spacings_.size(); ++p) {
-      if (spacings_[p] <= 2 * spacing) places.push_back(out_.points[p].position);
-    }
-    scene::Bounds dense = all;
-    for (glm::length_t axis = 0; axis < 3; ++axis) {
-      std::ranges::sort(places, {}, [&](const vec3& place) { return place[axis]; });
-      const std::size_t few = places.size() / left_out;
-      const float margin = fitted_reach * spacing;
-      dense.min[axis] = std::clamp(places[few][axis] - margin, all.min[axis], all.max[axis]);
-      dense.max[axis] =
-          std::clamp(places[places.size() - 1 - few][axis] + margin, dense.min[axis], all.max[axis]);
-    }
-    return dense;
-  }
-
-  static SurfaceGrid grid_over(const scene::Bounds& bounds, float spacing) {
-    constexpr float most_cells = 1 << 21;
-    SurfaceGrid grid;
-    grid.cell_size = cell_share * spacing;
-    // Surfaces of a wall in a cell's plane must not fall into either of two
-    const vec3 extent = bounds.max - bounds.min + 0.5f * spacing;
-    grid.origin = bounds.min - 0.25f * spacing;
-    const auto number = [&] { return glm::ceil(extent / grid.cell_size); };
-    while (number().x * number().y * number().z > most_cells) grid.cell_size *= 1.26f;
-    grid.cells = ivec3(number());
-    return grid;
-  }
-
   std::vector<uvec4> list_of(std::size_t cell, Work& work) const {
     const auto c = static_cast<int>(cell);
     const ivec3& cells = grid_->cells;
@@ -255,17 +195,22 @@ class Preparation {
     std::erase_if(work.candidates, [](const Work::Candidate& c) { return c.asked.empty(); });
   }
 
-  Seen sees(const Work& work, std::size_t i, std::uint32_t p) const {
+  Seen sees(Work& work, std::size_t i, std::uint32_t p) const {
     const rays::SurfacePoint& point = out_.points[p];
+    const std::size_t side = work.samples.side(i, point.normal);
     const vec3 n = work.samples.normal(i);
-    const rays::SurfacePoint at{work.samples.position(i), work.samples.side(i, point.normal) == 1 ? -n : n};
-    const float spacing = std::min(spacings_[p], most_cells_apart * grid_->cell_size);
-    if (see_along_surface(at, point, spacing, sees_)) return Seen::yes;
+    const rays::SurfacePoint at{work.samples.position(i), side == 1 ? -n : n};
+    const float most = most_cells_apart * grid_->cell_size, spacing = std::min(spacings_[p], most);
+    const float above = work.samples.headroom(i, side, [&] {
+      return headroom(at, fitted_roof * most, fitted_lift * std::min(work.finest, most), sees_);
+    });
+    const float room = std::min(above, room_[p]);
+    if (see_along_surface(at, point, spacing, room, sees_)) return Seen::yes;
     if (work.panes.empty()) return Seen::no;
     const auto through = [&](const vec3& from, const vec3& to) {
       return sees_(from, to) || sees_through(work.panes, from, to);
     };
-    return see_along_surface(at, point, spacing, through) ? Seen::through_glass : Seen::no;
+    return see_along_surface(at, point, spacing, room, through) ? Seen::through_glass : Seen::no;
   }
 
   /// Whether a pane of the cell, of one sheet or two, is all that stands in the way.
@@ -372,6 +317,7 @@ class Preparation {
   const SeesProbe& sees_;
   std::vector<float> spacings_;
   std::vector<int> cover_;
+  std::vector<float> room_;  ///< headroom() up to that of see_along_surface [m]
   geometry::Balls reach_;
   const SurfaceGrid* grid_ = nullptr;  ///< whose lists are made
   TriangleCells in_cells_;             ///< of that

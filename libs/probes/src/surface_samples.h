@@ -59,12 +59,20 @@ class SurfaceSamples {
     if (known == 0) known = find() ? 2 : 1;
     return known == 2;
   }
+  /// What `find` tells of the height above a side, not less than 0, asked once.
+  template <class Find>
+  float headroom(std::size_t i, std::size_t side, const Find& find) {
+    float& known = headroom_[side][i];
+    if (known < 0) known = find();
+    return known;
+  }
 
  private:
   /// Position, normal, and the weight of what is counted on either side.
   std::array<std::vector<float>, 8> numbers_;
   std::vector<std::array<std::uint8_t, 4>> parts_;           ///< of each cut
   std::array<std::vector<std::uint8_t>, 2> alive_, narrow_;  ///< of each side; narrow_: 0 where nobody asked
+  std::array<std::vector<float>, 2> headroom_;               ///< of each side; under 0 where nobody asked
   std::vector<std::int32_t> verdicts_;
   std::vector<float> weights_;
   std::array<std::vector<float>, 2> asked_;  ///< weight on either side of all, seen or not

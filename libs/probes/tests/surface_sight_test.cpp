@@ -99,7 +99,7 @@ TEST(SightAlongSurface, PassesOverABallBetweenItsOwnPoints) {
     const rays::SurfacePoint a{{0, radius, 0}, {0, 1, 0}};
     for (float degrees = 1; degrees <= 45; degrees += 4) {
       const vec3 n(std::sin(glm::radians(degrees)), std::cos(glm::radians(degrees)), 0);
-      EXPECT_TRUE(see_along_surface(a, {radius * n, n}, 1e-3f * radius, sees))
+      EXPECT_TRUE(see_along_surface(a, {radius * n, n}, 1e-3f * radius, radius, sees))
           << degrees << "° of " << radius;
     }
   }
@@ -115,7 +115,7 @@ TEST(SightAlongSurface, StaysCloseOverWhatIsFlatOrHollow) {
       EXPECT_NEAR(glm::distance(to, vec3(0.8f, 0, 0)), fitted_lift * 0.5f, 1e-6f);
       return true;
     };
-    EXPECT_TRUE(see_along_surface(a, {{0.8f, 0, 0}, n}, 0.5f, sees));
+    EXPECT_TRUE(see_along_surface(a, {{0.8f, 0, 0}, n}, 0.5f, 0, sees));
     EXPECT_EQ(asked, 1);
   }
 }
@@ -127,8 +127,63 @@ TEST(SightAlongSurface, PassesOverBumpsOfCoarseTrianglesAlone) {
       return from.x * to.x > 0 || 0.5f * (from.y + to.y) > wall;
     };
   };
-  EXPECT_TRUE(see_along_surface(a, b, 0.5f, over(0.02f)));
-  EXPECT_FALSE(see_along_surface(a, b, 0.5f, over(0.05f)));
+  EXPECT_TRUE(see_along_surface(a, b, 0.5f, 1, over(0.02f)));
+  EXPECT_FALSE(see_along_surface(a, b, 0.5f, 1, over(0.05f)));
+}
+
+TEST(SightAlongSurface, GoesThroughNoSlitBelowWhatHangs) {
+  const rays::SurfacePoint a{{-0.4f, 0, 0}, {0, 1, 0}}, b{{0.4f, 0, 0}, {0, 1, 0}};
+  const auto below = [](float gap) {  // a curtain at x = 0
+    return
+        [gap](const vec3& from, const vec3& to) { return from.x * to.x > 0 || 0.5f * (from.y + to.y) < gap; };
+  };
+  EXPECT_FALSE(see_along_surface(a, b, 0.5f, 1, below(0.02f))) << "a door's gap";
+  EXPECT_FALSE(see_along_surface(a, b, 0.5f, 1, below(0.1f)));
+  EXPECT_TRUE(see_along_surface(a, b, 0.5f, 1, below(0.2f))) << "a table's edge";
+  EXPECT_TRUE(see_along_surface(a, b, 0.5f, 0.07f, below(0.1f))) << "there is no more room anywhere";
+  EXPECT_TRUE(see_along_surface(a, b, 0.5f, 0, below(0.02f)));
+}
+
+TEST(SightAlongSurface, RisesAsFarAsThereIsRoom) {
+  const rays::SurfacePoint point{{0, 1, 0}, {0, 1, 0}};
+  std::vector<float> tried;
+  const auto below = [&](float ceiling) {
+    return [&tried, ceiling](const vec3& from, const vec3& to) {
+      EXPECT_NEAR(from.y, 1.01f, 1e-6f);
+      tried.push_back(to.y - 1);
+      return to.y - 1 < ceiling;
+    };
+  };
+  EXPECT_EQ(headroom(point, 0.1f, 0.01f, below(1)), 0.1f);
+  EXPECT_EQ(tried.size(), 1u);
+  EXPECT_NEAR(headroom(point, 0.1f, 0.01f, below(0.05f)), 0.049f, 1e-6f);
+  EXPECT_EQ(headroom(point, 0.1f, 0.01f, below(0)), 0);
+  EXPECT_GT(tried.back(), 0.01f);
+  EXPECT_LT(tried.back(), 0.015f);
+}
+
+/// A door that does not reach the floor: what is bright behind it does not light the floor before it.
+TEST(SightAlongSurface, LightStaysBehindADoorWithAGap) {
+  std::vector<rays::SurfacePoint> points;
+  std::vector<RecordLight> light;
+  for (int x = -8; x < 8; ++x) {
+    for (int z = -8; z < 8; ++z) {
+      points.push_back({{0.1f * static_cast<float>(x) + 0.05f, 0, 0.1f * static_cast<float>(z)}, {0, 1, 0}});
+      light.emplace_back(0);
+      light.back()[3] = vec3(x < 0 ? 1.0f : 0.01f);
+    }
+  }
+  constexpr float gap = 0.01f, thickness = 0.02f;
+  const auto sees = [](const vec3& a, const vec3& b) {
+    const float at = std::clamp((thickness - a.x) / (b.x - a.x), 0.0f, 1.0f);  // on its far side
+    return (a.x < 0) == (b.x < thickness) || glm::mix(a.y, b.y, at) < gap;
+  };
+  const SurfaceInterpolation between(points, sees);
+  for (float x = thickness + 0.01f; x < 0.4f; x += 0.02f) {
+    vec3 e;
+    ASSERT_TRUE(between.irradiance({{x, 0, 0.03f}, {0, 1, 0}}, light, e)) << x;
+    EXPECT_NEAR(e.x, 0.01f, 1e-4f) << x;
+  }
 }
 
 TEST(SightAlongSurface, GoesThroughNothingOnItsWayUp) {
@@ -138,8 +193,8 @@ TEST(SightAlongSurface, GoesThroughNothingOnItsWayUp) {
   const auto below = [](float ceiling) {
     return [ceiling](const vec3& from, const vec3& to) { return (from.y < ceiling) == (to.y < ceiling); };
   };
-  EXPECT_TRUE(see_along_surface(a, b, 0.5f, below(0.5f)));
-  EXPECT_FALSE(see_along_surface(a, b, 0.5f, below(0.05f)));
+  EXPECT_TRUE(see_along_surface(a, b, 0.5f, 1, below(0.5f)));
+  EXPECT_FALSE(see_along_surface(a, b, 0.5f, 1, below(0.05f)));
 }
 
 TEST(SurfaceCover, TellsHowNarrowItIsBeforeAPoint) {

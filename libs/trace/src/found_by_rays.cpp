@@ -40,7 +40,8 @@ FoundByRays::FoundByRays(const shading::LightSet& lights) {
 }
 
 bool FoundByRays::on(const Ray& ray) const {
-  return everywhere_ || std::ranges::any_of(boxes_, [&](const scene::Bounds& box) { return meets(ray, box); });
+  return everywhere_ ||
+         std::ranges::any_of(boxes_, [&](const scene::Bounds& box) { return meets(ray, box); });
 }
 
 }  // namespace ssphh::trace

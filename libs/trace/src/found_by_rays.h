@@ -18,7 +18,7 @@ class FoundByRays {
   bool on(const Ray& ray) const;
 
  private:
-  bool everywhere_ = false;            ///< at infinity, or too many to ask each
+  bool everywhere_ = false;           ///< at infinity, or too many to ask each
   std::vector<scene::Bounds> boxes_;  ///< of the others, in world space
 };
 

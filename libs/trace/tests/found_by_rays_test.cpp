@@ -1,11 +1,12 @@
 /// Which rays need not look for lights: none that finds one.
 
+#include "../src/found_by_rays.h"
+
 #include <gtest/gtest.h>
 
 #include <ssphh/core/random.h>
 #include <ssphh/core/sphere.h>
 
-#include "../src/found_by_rays.h"
 #include "../src/tracer_data.h"
 #include "hand_made.h"
 
@@ -18,8 +19,9 @@ scene::Scene lamps_of_all_forms(Pcg32& random) {
   test::add_light(scene, scene::LightType::sphere, 1, place()).radius = 0.3f;
   test::add_object(scene, scene::make_quad(place(), {0.5f, 0, 0}, {0, 0, 0.5f}),
                    test::lambertian(vec3(0), vec3(1)), "flat");
-  test::add_object(scene, scene::transformed(scene::make_box(vec3(-0.2f), vec3(0.2f)), glm::translate(mat4(1), place())),
-                   test::lambertian(vec3(0), vec3(1)), "box");
+  test::add_object(
+      scene, scene::transformed(scene::make_box(vec3(-0.2f), vec3(0.2f)), glm::translate(mat4(1), place())),
+      test::lambertian(vec3(0), vec3(1)), "box");
   return scene;
 }
 

@@ -42,6 +42,8 @@ inline constexpr float fitted_off_plane_slope = 0.1f;
 /// Rays between such points start so many spacings above the surface, and this share higher of what it bulges
 /// by their normals.
 inline constexpr float fitted_lift = 0.02f, fitted_lift_over_bulges = 0.2f;
+/// So high they begin once more, where there is room: nothing passes through a slit. In spacings.
+inline constexpr float fitted_roof = 0.25f;
 /// Over what coarse triangles rise above the surface that they stand for: so many spacings.
 inline constexpr float fitted_hop = 0.05f;
 /// Classes of what lies close before a point (surface_cover).

@@ -21,9 +21,13 @@ inline constexpr std::uint32_t no_surface_point = ~std::uint32_t{0};
 
 /// Where each point counts at all.
 geometry::Balls surface_reach(std::span<const rays::SurfacePoint> points, std::span<const float> spacings);
+/// How high one can rise straight from a point: `most` metres, else the highest of ever lower tries, each 0.7
+/// of the one before, or 0 where all above `least` are in vain.
+float headroom(const rays::SurfacePoint& point, float most, float least, const SeesProbe& sees);
 /// Whether two points of one surface see each other: above bulges of that surface and above bumps of a
-/// twentieth of the spacing, but not above what stands on it.
-bool see_along_surface(const rays::SurfacePoint& a, const rays::SurfacePoint& b, float spacing,
+/// twentieth of the spacing, but not above what stands on it, nor through a slit: a quarter of the spacing
+/// above the surface, or `room` where less headroom is above one of them, they must see each other, too.
+bool see_along_surface(const rays::SurfacePoint& a, const rays::SurfacePoint& b, float spacing, float room,
                        const SeesProbe& sees);
 
 /// How narrow it is before a point: 0 where at most three quarters of its light come from nearer than half a
@@ -64,6 +68,7 @@ class SurfaceInterpolation {
     float spacing;        ///< of surface_spacings [m]
     glm::i16vec3 normal;  ///< times 32767
     std::uint8_t cover;   ///< of surface_cover
+    float room;           ///< headroom() up to that of see_along_surface [m]
   };
   SurfaceInterpolation(std::span<const rays::SurfacePoint> points, std::span<const float> spacings,
                        SeesProbe sees);
