@@ -71,8 +71,7 @@ std::array<SurfaceGrid, 2> surface_grids(std::span<const StillTriangle> triangle
     return place == glm::clamp(place, dense.min, dense.max);
   });
   constexpr float far = 8;  // where there are no points: what reaches out of the first is all
-  const float around =
-      others.empty() ? far * spacing : std::max(spacing, median_spacing(spacings, others));
+  const float around = others.empty() ? far * spacing : std::max(spacing, median_spacing(spacings, others));
   return {grid_over(dense, spacing), grid_over(all, around)};
 }
 
