@@ -120,9 +120,10 @@ SurfaceInterpolation::SurfaceInterpolation(std::span<const rays::SurfacePoint> p
   require(sees_ != nullptr, "surface points", "nothing tells what sees them");
   parallel_for(points.size(), 64, [&](std::size_t i) {
     const int cover = spacings[i] > 0 ? surface_cover(points[i], spacings[i], sees_) : 0;
-    const float room = headroom(points[i], fitted_roof * spacings[i], fitted_lift * spacings[i], sees_);
+    const float most = fitted_roof * spacings[i];
+    const float room = most > 0 ? headroom(points[i], most, fitted_lift * spacings[i], sees_) / most : 0;
     points_[i] = {points[i].position, spacings[i], glm::round(32767.0f * points[i].normal),
-                  static_cast<std::uint8_t>(cover), room};
+                  static_cast<std::uint8_t>(cover), static_cast<std::uint8_t>(255 * room)};
   });
 }
 
@@ -170,9 +171,10 @@ std::span<const SurfaceShare> SurfaceInterpolation::at(const rays::SurfacePoint&
     left -= share.weight;
     const float spacing = point.spacing;
     const vec3 offset = point.position - x;
+    const float above_point = static_cast<float>(point.room) / 255 * fitted_roof * spacing;
     if (glm::dot(offset, offset) > 1e-6f * spacing * spacing &&
         !see_along_surface(at, {point.position, vec3(point.normal) / 32767.0f}, spacing,
-                           std::min(room, point.room), sees_))
+                           std::min(room, above_point), sees_))
       continue;
     if (used == 0) unit = spacing;
     const vec3 local = frame.to_local(offset) / unit;

@@ -1,8 +1,8 @@
 /// What places on a surface have a say.
 
-#include <gtest/gtest.h>
-
 #include "surface_samples.h"
+
+#include <gtest/gtest.h>
 
 namespace ssphh::probes {
 namespace {

@@ -68,7 +68,7 @@ class SurfaceInterpolation {
     float spacing;        ///< of surface_spacings [m]
     glm::i16vec3 normal;  ///< times 32767
     std::uint8_t cover;   ///< of surface_cover
-    float room;           ///< headroom() up to that of see_along_surface [m]
+    std::uint8_t room;    ///< headroom() in 255ths of the most that see_along_surface asks for
   };
   SurfaceInterpolation(std::span<const rays::SurfacePoint> points, std::span<const float> spacings,
                        SeesProbe sees);
