@@ -30,7 +30,8 @@ struct WebOptions {
   bool merge_groups = false;         ///< one lightmap of all light
   std::optional<int> poses;          ///< of what moves; none: 5, or 1 of a probe file or where nothing moves
   std::vector<std::string> movable;  ///< lamps that the page drags, by name; "all": those that can be
-  float movable_step = 1;            ///< most between the places whose light is found [m]
+  /// Most between the places whose light is found [m]; none: 1, or 0.5 for a spot, whose bright disc moves.
+  std::optional<float> movable_step;
   float movable_reach = 2;           ///< of these places from the lamp's own, along each axis [m]
   std::optional<int> movable_size;   ///< texels along these lightmaps' width; none: a quarter of the scene's
   std::optional<int> truth;          ///< samples a pixel of path-traced pictures; none: no pictures

@@ -1,3 +1,5 @@
+#include "commands/web_lamps.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,8 +11,6 @@
 #include <ssphh/pipeline/lamp_light.h>
 #include <ssphh/scene/query.h>
 
-#include "commands/web_lamps.h"
-
 namespace ssphh::app {
 namespace {
 
@@ -21,6 +21,9 @@ constexpr int coarser = 4;
 constexpr int least_size = 64;
 /// Share of the mean light that is kept.
 constexpr float faint = 1.0f / 1024;
+
+/// Places of a spot are nearer: what its bright disc lights moves with it [m].
+constexpr float spot_spacing = 0.5f;
 
 using scene::Light;
 using scene::LightType;
@@ -58,7 +61,8 @@ std::vector<std::size_t> lights_named(const WebOptions& o, const scene::Scene& s
     if (light == names.end()) {
       const std::vector<std::string> groups = scene::light_groups(scene);
       if (std::ranges::find(groups, wanted) != groups.end())
-        throw Error(where, "is no point, spot or sphere light: a sky and shining surfaces stay where they are",
+        throw Error(where,
+                    "is no point, spot or sphere light: a sky and shining surfaces stay where they are",
                     nearest_hint(wanted, names));
       throw Error(where, "is no lamp of the scene", nearest_hint(wanted, names));
     }
@@ -79,11 +83,12 @@ vec3 place_of(const scene::Scene& scene, const Light& light, float time) {
 /// As few texels as are of use; more where so few do not hold all charts.
 lightmap::Layout coarse_layout(const LitStage& stage) {
   const WebOptions& o = stage.options;
-  if (o.movable_size) return lightmap::lay_out(stage.charts.charts, {.size = *o.movable_size});
-  for (int size = std::max(least_size, stage.layout.width / coarser);; size *= 2) {
+  for (int size = o.movable_size.value_or(std::max(least_size, stage.layout.width / coarser));; size *= 2) {
     try {
       return lightmap::lay_out(stage.charts.charts, {.size = size});
     } catch (const Error&) {
+      if (o.movable_size)
+        throw Error(fmt::format("--movable-size {}", size), "is too small for the charts", "leave it out");
       if (size >= stage.layout.width) throw;
     }
   }
@@ -144,25 +149,19 @@ json::Value lamp_json(const scene::Scene& scene, const WebLamp& lamp, float time
   const pipeline::LampLattice& lattice = lamp.lattice;
   const vec3 at(world[3]), ahead = -glm::normalize(vec3(world[2])), power = light.color * light.intensity;
   const auto numbers = [](const vec3& v) { return json::Value(std::span(glm::value_ptr(v), 3)); };
-  json::Value out = {{"name", lamp.name},
-                     {"group", lamp.group},
-                     {"type", name_of(light.type)},
-                     {"at", numbers(at)},
-                     {"power", numbers(power)},
-                     {"radius", light.type == LightType::sphere ? light.radius : 0.0f},
-                     {"range", light.range}};
+  json::Value out = {
+      {"name", lamp.name},           {"group", lamp.group},
+      {"type", name_of(light.type)}, {"at", numbers(at)},
+      {"power", numbers(power)},     {"radius", light.type == LightType::sphere ? light.radius : 0.0f},
+      {"range", light.range}};
   if (light.type == LightType::spot)
-    out["spot"] = {{"toward", numbers(ahead)},
-                   {"inner_cone", light.inner_cone},
-                   {"outer_cone", light.outer_cone}};
+    out["spot"] = {
+        {"toward", numbers(ahead)}, {"inner_cone", light.inner_cone}, {"outer_cone", light.outer_cone}};
   json::Value planes = json::Value::array();
   for (const std::vector<int>& axis : lattice.planes) planes.push_back(json::Value(axis));
-  out["lattice"] = {{"origin", numbers(lattice.origin)},
-                    {"box", lattice.box},
-                    {"planes", std::move(planes)},
-                    {"boxes", lamp.boxes},
-                    {"places", lattice.places.size()},
-                    {"place_of", json::Value(lattice.place_of)}};
+  out["lattice"] = {{"origin", numbers(lattice.origin)}, {"box", lattice.box},
+                    {"planes", std::move(planes)},       {"boxes", lamp.boxes},
+                    {"places", lattice.places.size()},   {"place_of", json::Value(lattice.place_of)}};
   out["textures"] = json::Value(lamp.textures);
   return out;
 }
@@ -180,12 +179,15 @@ WebLamps find_web_lamps(const LitStage& stage, std::span<const float> times, std
   lamps.charts = files.back().name;
   for (const std::size_t index : lights) {
     const Light& light = stage.scene.lights[index];
-    WebLamp& lamp = lamps.lamps.emplace_back(WebLamp{light.name, scene::light_group(light), index, {}, {}, {}});
-    pipeline::LampLatticeParams params{o.movable_step, o.movable_reach, 0};
+    WebLamp& lamp =
+        lamps.lamps.emplace_back(WebLamp{light.name, scene::light_group(light), index, {}, {}, {}});
+    pipeline::LampLatticeParams params{.reach = o.movable_reach};
+    if (light.type == LightType::spot) params.spacing = spot_spacing;
+    if (o.movable_step) params.spacing = *o.movable_step;
     if (light.type == LightType::sphere) params.radius = light.radius;
     try {
-      lamp.lattice =
-          pipeline::lamp_lattice(stage.source, times, place_of(stage.scene, light, o.scene.time), params, control);
+      lamp.lattice = pipeline::lamp_lattice(stage.source, times, place_of(stage.scene, light, o.scene.time),
+                                            params, control);
     } catch (const Error& error) {
       throw Error("--movable " + light.name, error.what());
     }
@@ -210,7 +212,8 @@ void add_lamp_pose(const LitStage& stage, const probes::ProbeSet& set, float tim
   for (std::size_t i = 0; i < lamps.lamps.size(); ++i) {
     WebLamp& lamp = lamps.lamps[i];
     // A row for each place.
-    image::Image all(static_cast<int>(texel_count(lamps.layout)), static_cast<int>(lamp.lattice.places.size()), 3);
+    image::Image all(static_cast<int>(texel_count(lamps.layout)),
+                     static_cast<int>(lamp.lattice.places.size()), 3);
     auto to = all.pixels.begin();
     ProgressStage progress(control, "light of " + lamp.name, lamp.lattice.places.size(), "places");
     for (const vec3& place : lamp.lattice.places) {
@@ -224,7 +227,8 @@ void add_lamp_pose(const LitStage& stage, const probes::ProbeSet& set, float tim
       progress.advance(1);
     }
     drop_faint(all);
-    files.push_back(hashed_file(fmt::format("moved-{}-{}", i, lamp.textures.size()), "bin", packed_light(all)));
+    files.push_back(
+        hashed_file(fmt::format("moved-{}-{}", i, lamp.textures.size()), "bin", packed_light(all)));
     lamp.textures.push_back(files.back().name);
   }
 }

@@ -18,8 +18,9 @@ struct WebLamp {
   std::string name, group;
   std::size_t light = 0;  ///< of the scene's
   pipeline::LampLattice lattice;
-  std::string boxes;                  ///< file of what each box of the lattice sees
-  std::vector<std::string> textures;  ///< a file for each pose: the lightmaps of all places, one below another
+  std::string boxes;  ///< file of what each box of the lattice sees
+  std::vector<std::string>
+      textures;  ///< a file for each pose: the lightmaps of all places, one below another
 };
 
 struct WebLamps {

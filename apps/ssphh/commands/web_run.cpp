@@ -344,6 +344,8 @@ WebResult run_web(const WebOptions& o, const Control& control) {
         "{:.2g} texels per metre: shadows are blurred over {:.2g} m, and light leaks through walls "
         "that are thinner; give a higher --size",
         layout.density, 1 / layout.density));
+  if (!o.movable.empty() && lamps.lamps.empty())
+    result.notes.push_back("no lamp of the scene can be dragged: --movable all has nothing to do");
   result.notes.insert(result.notes.end(), charts.notes.begin(), charts.notes.end());
   result.seconds = all.seconds() - result.bake_seconds - result.lamp_seconds;
   return result;

@@ -1,11 +1,11 @@
+#include "commands/web_stage.h"
+
 #include <bit>
 
 #include <fmt/format.h>
 
 #include <ssphh/core/hash.h>
 #include <ssphh/report/packed_image.h>
-
-#include "commands/web_stage.h"
 
 namespace ssphh::app {
 namespace {

@@ -14,8 +14,8 @@
 namespace ssphh::pipeline {
 namespace {
 
-constexpr float gap = 0.01f;    ///< between a lamp and a surface, at least [m]
-constexpr int fan_rays = 64;    ///< by which surfaces near a place are found
+constexpr float gap = 0.01f;  ///< between a lamp and a surface, at least [m]
+constexpr int fan_rays = 64;  ///< by which surfaces near a place are found
 constexpr int corner_count = 8;
 
 glm::ivec3 corner_side(int corner) {
@@ -23,7 +23,8 @@ glm::ivec3 corner_side(int corner) {
 }
 
 std::size_t index_in(const glm::ivec3& size, const glm::ivec3& at) {
-  return (static_cast<std::size_t>(at.z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(at.y)) *
+  return (static_cast<std::size_t>(at.z) * static_cast<std::size_t>(size.y) +
+          static_cast<std::size_t>(at.y)) *
              static_cast<std::size_t>(size.x) +
          static_cast<std::size_t>(at.x);
 }
@@ -149,8 +150,10 @@ void check(const LampLatticeParams& params) {
   const auto positive = [](float x) { return x > 0 && std::isfinite(x); };
   require(positive(params.spacing), "lattice of a lamp", "its spacing must be over 0 m");
   require(positive(params.reach), "lattice of a lamp", "its reach must be over 0 m");
-  require(params.radius >= 0 && std::isfinite(params.radius), "lattice of a lamp", "its radius must not be negative");
-  const double along = 2 * std::ceil(double{params.reach} / params.spacing) + 1, places = along * along * along;
+  require(params.radius >= 0 && std::isfinite(params.radius), "lattice of a lamp",
+          "its radius must not be negative");
+  const double along = 2 * std::ceil(double{params.reach} / params.spacing) + 1,
+               places = along * along * along;
   if (places <= most_lamp_places) return;
   throw Error("lattice of a lamp",
               fmt::format("places {:.3g} m apart as far as {:.3g} m are {:.0f}, and {:.0f} is the most",
@@ -218,7 +221,8 @@ std::array<LampShare, 8> lamp_shares(const LampLattice& lattice, const vec3& at)
     const std::vector<int>& planes = lattice.planes[axis];
     box[axis] = std::min(static_cast<int>(place[axis]), lattice.boxes[axis] - 1);
     cell[axis] = cell_of(planes, box[axis]);
-    const auto low = static_cast<float>(planes[cell[axis]]), high = static_cast<float>(planes[cell[axis] + 1]);
+    const auto low = static_cast<float>(planes[cell[axis]]),
+               high = static_cast<float>(planes[cell[axis] + 1]);
     share[axis] = (place[axis] - low) / (high - low);
   }
   const std::uint8_t seen = lattice.seen[index_in(lattice.boxes, box)];
@@ -232,7 +236,8 @@ std::array<LampShare, 8> lamp_shares(const LampLattice& lattice, const vec3& at)
   }
   // Right at a corner that is not seen the others count alike.
   for (LampShare& one : shares)
-    if (one.place >= 0) one.weight = sum > 0 ? one.weight / sum : 1.0f / static_cast<float>(std::popcount(seen));
+    if (one.place >= 0)
+      one.weight = sum > 0 ? one.weight / sum : 1.0f / static_cast<float>(std::popcount(seen));
   return shares;
 }
 

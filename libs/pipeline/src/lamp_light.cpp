@@ -31,13 +31,13 @@ struct LampLight::Data {
 
 LampLight::LampLight(const rays::TransportSource& source, const rays::RadianceSource& sight,
                      const probes::ProbeSet& set, const Control& control)
-    : data_(std::make_unique<Data>(Data{sight,
-                                        {source, scene::places_of(set.probes), session_params(set),
-                                         set.generator.time, control},
-                                        rays::lighting_at(source, set.generator.time),
-                                        {},
-                                        {},
-                                        {}})) {
+    : data_(std::make_unique<Data>(
+          Data{sight,
+               {source, scene::places_of(set.probes), session_params(set), set.generator.time, control},
+               rays::lighting_at(source, set.generator.time),
+               {},
+               {},
+               {}})) {
   Data& d = *data_;
   for (std::size_t i = 0; i < d.dark.lights.size(); ++i)
     d.group_of.push_back(source.light_group_of(static_cast<int>(i)));

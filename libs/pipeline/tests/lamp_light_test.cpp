@@ -56,7 +56,8 @@ class LampLightTest : public testing::Test {
 TEST_F(LampLightTest, AtItsOwnPlaceIsThatOfTheBake) {
   const Baked& b = baked();
   LampLight lamp(b.source, b.tracer, b.set);
-  const auto lookup = probes::make_lookup(probes::LookupMethod::irradiance, b.set, b.tracer, lookup_params("", b.set, {}));
+  const auto lookup =
+      probes::make_lookup(probes::LookupMethod::irradiance, b.set, b.tracer, lookup_params("", b.set, {}));
   const std::vector<float> truth = green(*lookup);
   ASSERT_GT(truth.size(), 100u);
   EXPECT_LT(mean_error(green(lamp.at(0, vec3(-2.4f, 2.5f, 0.5f))), truth), 0.005);
@@ -72,7 +73,8 @@ TEST_F(LampLightTest, ElsewhereIsThatOfABakeWithTheLampThere) {
   const auto geometry = std::make_shared<const trace::SceneGeometry>(moved);
   const probes::ProbeSet set = bake_surfaces(geometry, moved, 0, bake::Quality::draft, 1);
   const trace::PathTracer tracer(geometry, moved, 0);
-  const auto lookup = probes::make_lookup(probes::LookupMethod::irradiance, set, tracer, lookup_params("", set, {}));
+  const auto lookup =
+      probes::make_lookup(probes::LookupMethod::irradiance, set, tracer, lookup_params("", set, {}));
   const std::vector<float> truth = green(*lookup), home = green(lamp.at(0, vec3(-2.4f, 2.5f, 0.5f)));
   EXPECT_LT(mean_error(green(lamp.at(0, place)), truth), 0.03);  // other records, other noise
   EXPECT_GT(mean_error(home, truth), 0.1);
@@ -88,7 +90,8 @@ TEST_F(LampLightTest, BetweenPlacesIsNearTheirBlend) {
     std::vector<float> blended(truth.size(), 0);
     for (const LampShare& share : lamp_shares(lattice, place)) {
       if (share.place < 0) continue;
-      const std::vector<float> there = green(lamp.at(0, lattice.places[static_cast<std::size_t>(share.place)]));
+      const std::vector<float> there =
+          green(lamp.at(0, lattice.places[static_cast<std::size_t>(share.place)]));
       for (std::size_t i = 0; i < there.size(); ++i) blended[i] += share.weight * there[i];
     }
     worst = std::max(worst, mean_error(blended, truth));

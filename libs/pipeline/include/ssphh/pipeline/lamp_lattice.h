@@ -13,8 +13,8 @@ namespace ssphh::pipeline {
 
 struct LampLatticeParams {
   float spacing = 1;  ///< most between neighbouring places along an axis [m]
-  float reach = 2;        ///< how far places are from the lamp's own, at most, along each axis [m]
-  float radius = 0;       ///< of the lamp [m]: its surface meets no other one
+  float reach = 2;    ///< how far places are from the lamp's own, at most, along each axis [m]
+  float radius = 0;   ///< of the lamp [m]: its surface meets no other one
 };
 
 /// So many boxes lie along an axis in one spacing: what the lamp sees is told for each.
@@ -30,9 +30,9 @@ struct LampLattice {
   /// Along each axis the planes, rising, in boxes from the origin; the first is 0, the last `boxes`, and the
   /// lamp's own place is on one.
   std::array<std::vector<int>, 3> planes;
-  std::vector<std::uint8_t> seen;     ///< of each box, x fastest: bit x + 2y + 4z for the corner on that side
-  std::vector<vec3> places;           ///< at which light is needed [m]
-  std::vector<std::int32_t> place_of; ///< of each crossing, x fastest: index into `places`; −1: not needed
+  std::vector<std::uint8_t> seen;  ///< of each box, x fastest: bit x + 2y + 4z for the corner on that side
+  std::vector<vec3> places;        ///< at which light is needed [m]
+  std::vector<std::int32_t> place_of;  ///< of each crossing, x fastest: index into `places`; −1: not needed
 };
 
 /// How much the light of a place counts.
