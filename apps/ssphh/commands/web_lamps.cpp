@@ -208,7 +208,7 @@ void add_lamp_pose(const LitStage& stage, const probes::ProbeSet& set, float tim
       lightmap::make_texels(stage.scene, time, stage.charts.charts, lamps.layout, control);
   const lightmap::Places places =
       lightmap::find_places(texels, rays::PosedWorld(stage.source, time), control);
-  pipeline::LampLight light(stage.source, tracer, set, control);
+  pipeline::LampLight light(stage.source, tracer, set, places.points, control);
   for (std::size_t i = 0; i < lamps.lamps.size(); ++i) {
     WebLamp& lamp = lamps.lamps[i];
     // A row for each place.
@@ -217,9 +217,11 @@ void add_lamp_pose(const LitStage& stage, const probes::ProbeSet& set, float tim
     auto to = all.pixels.begin();
     ProgressStage progress(control, "light of " + lamp.name, lamp.lattice.places.size(), "places");
     for (const vec3& place : lamp.lattice.places) {
-      const rays::IndirectLight& lookup = light.at(lamp.light, place, control);
-      const image::Image atlas = lightmap::light_texels(
-          texels, places, [&](const rays::SurfacePoint& at) { return lookup.irradiance(at); }, control);
+      const std::span<const vec3> found = light.at(lamp.light, place, control);
+      const auto irradiance = [&](const rays::SurfacePoint& at) {
+        return found[static_cast<std::size_t>(&at - places.points.data())];
+      };
+      const image::Image atlas = lightmap::light_texels(texels, places, irradiance, control);
       for (const lightmap::PlacedChart& chart : lamps.layout.places)
         for (int y = 0; y < chart.count.y; ++y)
           to = std::copy_n(atlas.pixels.begin() + texel_offset(atlas, chart.first + glm::ivec2(0, y)),

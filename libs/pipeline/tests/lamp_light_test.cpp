@@ -45,6 +45,11 @@ class LampLightTest : public testing::Test {
     for (const rays::SurfacePoint& point : points()) out.push_back(light.irradiance(point).g);
     return out;
   }
+  static std::vector<float> green(std::span<const vec3> light) {
+    std::vector<float> out;
+    for (const vec3& e : light) out.push_back(e.g);
+    return out;
+  }
   /// Mean difference in shares of the mean light.
   static double mean_error(std::span<const float> light, std::span<const float> truth) {
     double error = 0, all = 0;
@@ -55,7 +60,7 @@ class LampLightTest : public testing::Test {
 
 TEST_F(LampLightTest, AtItsOwnPlaceIsThatOfTheBake) {
   const Baked& b = baked();
-  LampLight lamp(b.source, b.tracer, b.set);
+  LampLight lamp(b.source, b.tracer, b.set, points());
   const auto lookup =
       probes::make_lookup(probes::LookupMethod::irradiance, b.set, b.tracer, lookup_params("", b.set, {}));
   const std::vector<float> truth = green(*lookup);
@@ -65,7 +70,7 @@ TEST_F(LampLightTest, AtItsOwnPlaceIsThatOfTheBake) {
 
 TEST_F(LampLightTest, ElsewhereIsThatOfABakeWithTheLampThere) {
   const Baked& b = baked();
-  LampLight lamp(b.source, b.tracer, b.set);
+  LampLight lamp(b.source, b.tracer, b.set, points());
   const vec3 place(-1.2f, 0.8f, -0.9f);
   scene::LightingState state = scene::lighting_at(b.scene, 0);
   state.lights[0].world[3] = vec4(place, 1);
@@ -82,7 +87,7 @@ TEST_F(LampLightTest, ElsewhereIsThatOfABakeWithTheLampThere) {
 
 TEST_F(LampLightTest, BetweenPlacesIsNearTheirBlend) {
   const Baked& b = baked();
-  LampLight lamp(b.source, b.tracer, b.set);
+  LampLight lamp(b.source, b.tracer, b.set, points());
   const LampLattice lattice = lamp_lattice(b.source, std::array{0.0f}, vec3(-2.4f, 2.5f, 0.5f));
   double worst = 0;
   for (const vec3 place : {vec3(-1.3f, 1.2f, -0.6f), vec3(-3.2f, 1.9f, 1.1f), vec3(-2, 0.6f, 0.2f)}) {
@@ -102,7 +107,7 @@ TEST_F(LampLightTest, BetweenPlacesIsNearTheirBlend) {
 
 TEST_F(LampLightTest, SaysWhatCannotBe) {
   const Baked& b = baked();
-  LampLight lamp(b.source, b.tracer, b.set);
+  LampLight lamp(b.source, b.tracer, b.set, points());
   EXPECT_THAT(test::message_of([&] { lamp.at(7, vec3(0)); }), testing::HasSubstr("no light of that index"));
   EXPECT_THAT(test::message_of([&] { lamp.at(0, vec3(NAN)); }), testing::HasSubstr("finite"));
 }
