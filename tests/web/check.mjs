@@ -150,6 +150,8 @@ if (placed) {
   await dragged.waitForTimeout(500);
   await ready();
   const moved = await picture(dragged, 'lamp'), start = await placeNow();
+  const rings = await dragged.$$eval('.handle:not([hidden])', all => all.map(ring => ring.dataset.lamp));
+  expect(rings.includes(lamp.name), 'a lamp in the picture has no ring');
   expect(!moved.equals(before), 'the address moves no lamp');
   writeFileSync(`${out}-lamp.json`, JSON.stringify({ name: lamp.name, camera: manifest.cameras[placed.camera], at: start }));
   const handle = dragged.locator(`.handle[data-lamp=${JSON.stringify(lamp.name)}]`), box = await handle.boundingBox();

@@ -253,11 +253,11 @@ class Page {
     this.last = this.walk.busy ? now : 0;
     element('exposure-text').textContent = `${Number(exposure.value).toFixed(1)} EV`;
     this.fit();
-    this.handles.forEach(handle => handle.show());
     this.light.lamps?.look(this.renderer, this.world.scene, Number(time.value), this.world.balls.values());
     this.renderer.toneMapping = this.manifest.tone_curve === 'filmic' ? CustomToneMapping : LinearToneMapping;
     this.renderer.toneMappingExposure = 2 ** Number(exposure.value);
     this.renderer.render(this.world.scene, this.camera);
+    this.handles.forEach(handle => handle.show());  // by the matrices of this frame
     document.body.dataset.drawn = 'yes';
   }
 }
