@@ -80,17 +80,16 @@ vec3 place_of(const scene::Scene& scene, const Light& light, float time) {
   return vec3(scene::world_matrix(scene, light.node, time)[3]);
 }
 
-/// As few texels as are of use; more where so few do not hold all charts.
+/// As few texels as are of use; where so few do not hold all charts, as coarse.
 lightmap::Layout coarse_layout(const LitStage& stage) {
   const WebOptions& o = stage.options;
-  for (int size = o.movable_size.value_or(std::max(least_size, stage.layout.width / coarser));; size *= 2) {
-    try {
-      return lightmap::lay_out(stage.charts.charts, {.size = size});
-    } catch (const Error&) {
-      if (o.movable_size)
-        throw Error(fmt::format("--movable-size {}", size), "is too small for the charts", "leave it out");
-      if (size >= stage.layout.width) throw;
-    }
+  const int size = o.movable_size.value_or(std::max(least_size, stage.layout.width / coarser));
+  try {
+    return lightmap::lay_out(stage.charts.charts, {.size = size});
+  } catch (const Error&) {
+    if (o.movable_size)
+      throw Error(fmt::format("--movable-size {}", size), "is too small for the charts", "leave it out");
+    return lightmap::lay_out(stage.charts.charts, {.density = stage.layout.density / coarser});
   }
 }
 
@@ -119,9 +118,13 @@ std::size_t texel_count(const lightmap::Layout& layout) {
   return count;
 }
 
+double bytes_of(const WebLamp& lamp, const lightmap::Layout& layout) {
+  return 6.0 * static_cast<double>(texel_count(layout)) * static_cast<double>(lamp.lattice.places.size());
+}
+
 void check_bytes(const WebLamp& lamp, const lightmap::Layout& layout) {
   const std::size_t texels = texel_count(layout), places = lamp.lattice.places.size();
-  const double bytes = 6.0 * static_cast<double>(texels) * static_cast<double>(places);
+  const double bytes = bytes_of(lamp, layout);
   if (bytes <= most_bytes) return;
   throw Error("--movable " + lamp.name,
               fmt::format("{} places of {} texels take {:.0f} MB of the browser, and {:.0f} MB is the most",
@@ -186,8 +189,12 @@ WebLamps find_web_lamps(const LitStage& stage, std::span<const float> times, std
     if (o.movable_step) params.spacing = *o.movable_step;
     if (light.type == LightType::sphere) params.radius = light.radius;
     try {
-      lamp.lattice = pipeline::lamp_lattice(stage.source, times, place_of(stage.scene, light, o.scene.time),
-                                            params, control);
+      do {  // farther apart where they are too many and nobody asked for so many
+        lamp.lattice = pipeline::lamp_lattice(stage.source, times, place_of(stage.scene, light, o.scene.time),
+                                              params, control);
+        params.spacing *= 1.5f;
+      } while (!o.movable_step && params.spacing < 2 * o.movable_reach &&
+               bytes_of(lamp, lamps.layout) > most_bytes);
     } catch (const Error& error) {
       throw Error("--movable " + light.name, error.what());
     }
