@@ -197,6 +197,79 @@ TEST_F(Web, SmoothMetalsDoNotHoldLightThatTheyMirrorAtOneSpot) {
   EXPECT_NEAR(brightest("newmtl m\nKd 0.5 0.5 0.5\nPm 1\nPr 0.1\n"), 0.01f * plain, 1e-3f * plain);
 }
 
+TEST_F(Web, LampsThatAreDraggedHaveTheirLightAtPlacesAroundThem) {
+  const json::Value said =
+      json_here(lit_line("two-rooms", {"--movable", "lamp", "--movable-step", "2", "--movable-size", "64"}));
+  EXPECT_THAT(test::schema_errors(test::source_dir() / "schemas/web-scene.schema.json",
+                                  read_text_file(out_ + "/scene.json")),
+              IsEmpty());
+  expect_files_there();
+  const json::Value m = manifest();
+  const json::Value &movable = m["movable"], &lamp = movable["lamps"][0], &lattice = lamp["lattice"];
+  const auto places = static_cast<std::size_t>(lattice["places"].number());
+  EXPECT_EQ(said["movable"][0]["name"].string(), "lamp");
+  EXPECT_EQ(said["movable"][0]["places"].number(), lattice["places"].number());
+  EXPECT_GT(places, 8u);
+  EXPECT_EQ(lamp["power"][0].number(), 4);
+
+  std::size_t crossings = 1, boxes = 1;
+  for (const json::Value& planes : lattice["planes"].elements()) {
+    crossings *= planes.size();
+    boxes *= static_cast<std::size_t>(planes[planes.size() - 1].number());
+  }
+  EXPECT_EQ(lattice["place_of"].size(), crossings);
+  EXPECT_EQ(fs::file_size(out_ + "/" + lattice["boxes"].string()), boxes);
+
+  // Each chart's texels, without gutters.
+  const std::vector<std::byte> charts = read_file(out_ + "/" + movable["charts"].string());
+  const auto number = [&](std::size_t i) {
+    return std::to_integer<std::size_t>(charts[2 * i]) +
+           256 * std::to_integer<std::size_t>(charts[2 * i + 1]);
+  };
+  std::size_t texels = 0;
+  for (std::size_t c = 0; c < charts.size() / 16; ++c) {
+    EXPECT_LE(number(8 * c + 4) + number(8 * c + 6), 64u);
+    texels += number(8 * c + 6) * number(8 * c + 7);
+  }
+  const json::Value size = {{"width", texels}, {"height", places}};
+  const std::vector<float> light = layer(lamp, 0, size);
+  ASSERT_EQ(light.size(), 3 * texels * places);
+
+  // At the lamp's own place it is the lightmap's less direct light: of the mean of all, some.
+  double darkest = INFINITY, brightest = 0;
+  for (std::size_t p = 0; p < places; ++p) {
+    double sum = 0;
+    for (std::size_t i = 0; i < 3 * texels; ++i) sum += light[3 * texels * p + i];
+    darkest = std::min(darkest, sum), brightest = std::max(brightest, sum);
+  }
+  EXPECT_GT(darkest, 0);
+  EXPECT_GT(brightest, 1.05 * darkest);  // places differ
+}
+
+TEST_F(Web, SaysWhichLampsCannotBeDragged) {
+  const auto problem = [&](const std::string& scene, const std::vector<std::string>& more) {
+    return problem_here(line(scene, more));
+  };
+  EXPECT_THAT(problem("builtin:two-rooms", {"--movable", "lanp"}),
+              AllOf(HasSubstr("lanp"), HasSubstr("did you mean \"lamp\"")));
+  EXPECT_THAT(problem("builtin:two-rooms", {"--movable", "lamp", "--movable-step", "0.001"}),
+              AllOf(HasSubstr("--movable lamp"), HasSubstr("4096 is the most"), HasSubstr("farther apart")));
+  EXPECT_THAT(problem("builtin:two-rooms", {"--movable", "lamp", "--movable-size", "16"}),
+              HasSubstr("--movable-size 16"));
+  EXPECT_THAT(problem("builtin:cornell", {"--movable", "lamp"}), HasSubstr("shining surfaces"));
+  write_file(dir_ / "lamps.json", std::string_view(R"({"lights": [
+    {"name": "sun", "type": "directional", "direction": [0, -1, 0], "intensity": 1},
+    {"name": "left", "type": "point", "light_group": "pair", "position": [-2, 1, 0], "intensity": 1},
+    {"name": "right", "type": "point", "light_group": "pair", "position": [-1, 1, 0], "intensity": 1}]})"));
+  const auto overlaid = [&](const std::string& lamp) {
+    return problem("builtin:two-rooms", {"--overlay", dir_ / "lamps.json", "--movable", lamp});
+  };
+  EXPECT_THAT(overlaid("sun"), HasSubstr("is at infinity"));
+  EXPECT_THAT(overlaid("left"),
+              AllOf(HasSubstr("shares the light group \"pair\""), HasSubstr("--movable all")));
+  EXPECT_FALSE(fs::exists(out_));
+}
+
 TEST_F(Web, StopsWhenAskedAndLeavesNothing) {
   CancelToken stop;
   stop.request();

@@ -1,7 +1,7 @@
 // Shows a folder of `ssphh web` in Chromium, uses it as people do, and leaves pictures: node check.mjs PLAYWRIGHT FOLDER OUT WIDTH HEIGHT
 // [TIME...]. What is wrong is printed, and the exit code is 1. Pictures: OUT-CAMERA.png, OUT-tTIME.png of the first camera, OUT-page.png,
-// OUT-wipe.png, OUT-phone.png.
-import { createReadStream, existsSync, readFileSync } from 'node:fs';
+// OUT-wipe.png, OUT-phone.png; with a lamp that can be dragged OUT-lamp.png, whose camera and place OUT-lamp.json holds.
+import { createReadStream, existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { join, extname } from 'node:path';
 import { pathToFileURL } from 'node:url';
@@ -28,7 +28,7 @@ const expect = (is, what) => {
   console.log(`WRONG: ${what}`);
 };
 
-async function open(options, before) {
+async function open(options, before, address = '') {
   const page = await (await browser.newContext(options)).newPage();
   page.setDefaultTimeout(60000);
   page.on('console', m => expect(!['error', 'warning'].includes(m.type()) || /GPU stall|swiftshader/i.test(m.text()), `console: ${m.text()}`));
@@ -36,7 +36,7 @@ async function open(options, before) {
   page.on('request', r => expect(r.url().startsWith(home) || r.url().startsWith(`blob:${home}`), `a request leaves the host: ${r.url()}`));
   page.on('requestfailed', r => expect(false, `not loaded: ${r.url()}`));
   if (before) await page.addInitScript(before);
-  await page.goto(home);
+  await page.goto(home + address);
   await page.waitForSelector('body[data-drawn], body[data-failed]');
   return page;
 }
@@ -44,11 +44,11 @@ const settle = page => page.evaluate(() => new Promise(done => requestAnimationF
 async function picture(page, file) {
   await page.evaluate(() => {
     document.activeElement?.blur();  // no ring around it
-    document.getElementById('panel').hidden = true;
+    document.getElementById('panel').hidden = document.getElementById('handles').hidden = true;
   });
   await settle(page);
   const shot = await page.screenshot(file ? { path: `${out}-${file}.png` } : {});
-  await page.evaluate(() => { document.getElementById('panel').hidden = false; });
+  await page.evaluate(() => { document.getElementById('panel').hidden = document.getElementById('handles').hidden = false; });
   return shot;
 }
 const slide = (page, selector, value) => page.evaluate(([s, v]) => {
@@ -122,6 +122,73 @@ if (manifest.cameras[0].truth) {
   const half = await picture(page, 'wipe');
   expect(!half.equals(all), 'the wipe does not wipe');
   await page.keyboard.press('t');
+}
+
+/** A place where the lamp may be, and the first camera that sees it within the middle of its picture. */
+function seenPlace({ lattice }) {
+  const boxes = readFileSync(join(folder, lattice.boxes)), [across, up] = lattice.planes.map(planes => planes.at(-1));
+  for (const [camera, { world: w, yfov }] of manifest.cameras.entries()) {
+    for (const [i, seen] of boxes.entries()) {
+      if (!seen) continue;
+      const at = [i % across, Math.floor(i / across) % up, Math.floor(i / across / up)].map((b, k) => lattice.origin[k] + lattice.box * (b + 0.6));
+      const way = at.map((x, k) => x - w[12 + k]), along = column => way.reduce((sum, x, k) => sum + x * w[4 * column + k], 0);
+      const ahead = -along(2), half = ahead * Math.tan(yfov / 2);
+      if (ahead > 1 && Math.abs(along(0)) < 0.2 * half && Math.abs(along(1)) < 0.5 * half) return { camera, at };
+    }
+  }
+  return undefined;
+}
+
+const lamp = manifest.movable?.lamps[0], placed = lamp && seenPlace(lamp);
+if (placed) {
+  const name = encodeURIComponent(lamp.name), dragged = await open({ viewport: { width: Number(width), height: Number(height) } });
+  const placeNow = async () => new URLSearchParams(new URL(dragged.url()).hash.slice(1)).get(lamp.name)?.split(',').map(Number);
+  const ready = () => dragged.waitForFunction(() => document.getElementById('message').hidden);
+  await dragged.keyboard.press(String(placed.camera + 1));
+  const before = await picture(dragged);
+  await dragged.evaluate(address => { location.hash = address; }, `${name}=${placed.at.join(',')}`);
+  await dragged.waitForTimeout(500);
+  await ready();
+  const moved = await picture(dragged, 'lamp'), start = await placeNow();
+  const rings = await dragged.$$eval('.handle:not([hidden])', all => all.map(ring => ring.dataset.lamp));
+  expect(rings.includes(lamp.name), 'a lamp in the picture has no ring');
+  expect(!moved.equals(before), 'the address moves no lamp');
+  writeFileSync(`${out}-lamp.json`, JSON.stringify({ name: lamp.name, camera: manifest.cameras[placed.camera], at: start }));
+  const handle = dragged.locator(`.handle[data-lamp=${JSON.stringify(lamp.name)}]`), box = await handle.boundingBox();
+  const drag = async (x, y) => {
+    const from = await handle.boundingBox();
+    await dragged.mouse.move(from.x + from.width / 2, from.y + from.height / 2);
+    await dragged.mouse.down();
+    await dragged.mouse.move(from.x + from.width / 2 + x, from.y + from.height / 2 + y, { steps: 4 });
+    await dragged.mouse.up();
+    await settle(dragged);
+  };
+  await drag(20, 10);
+  const there = await placeNow(), follows = await handle.boundingBox();
+  expect(there.some((x, k) => Math.abs(x - start[k]) > 0.01), 'a mouse drags no lamp');
+  expect(Math.hypot(follows.x - box.x, follows.y - box.y) < 24, 'a lamp does not follow the mouse');
+  expect(!moved.equals(await picture(dragged)), 'a lamp that is dragged changes no light');
+  await drag(5000, 0);
+  const { lattice } = lamp, inside = (await placeNow()).every((x, k) => x >= lattice.origin[k] - 1e-3 && x <= lattice.origin[k] + lattice.box * lattice.planes[k].at(-1) + 1e-3);
+  expect(inside, 'a lamp is dragged out of its room');
+  await dragged.evaluate(address => { location.hash = address; }, `${name}=${placed.at.join(',')}`);
+  await dragged.waitForTimeout(200);
+  expect(moved.equals(await picture(dragged)), 'the same place does not give the same picture');
+  const moves = [];
+  for (const key of ['ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown', 'PageUp', 'PageDown', 'Shift+ArrowLeft']) {
+    const last = await placeNow();
+    await handle.focus();
+    await dragged.keyboard.press(key);
+    await settle(dragged);
+    moves.push(Math.hypot(...(await placeNow()).map((x, k) => x - last[k])));
+  }
+  expect(moves.filter(x => x > 0.05).length >= 3 && moves.every(x => x < 0.102), `keys move a lamp by ${moves.map(x => x.toFixed(3))} m`);
+  expect(moves.at(-1) < 0.03, 'Shift does not move it by less');
+  await dragged.keyboard.press('r');
+  expect(before.equals(await picture(dragged)) && (await placeNow()) === undefined, 'R does not put the lamp back');
+  const touched = await open({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 1 }, undefined, `#${name}=${placed.at.join(',')}`);
+  await touched.waitForFunction(() => document.getElementById('message').hidden && location.hash.length > 1);
+  expect((await touched.locator('.handle:not([hidden])').count()) > 0 || placed.camera > 0, 'a phone shows no ring');
 }
 
 const phone = await open({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 1 });

@@ -22,16 +22,20 @@ std::string size_text(std::size_t bytes) {
 json::Value to_json(const WebResult& r, const WebOptions& o) {
   json::Value files = json::Value::array();
   for (const WebFile& file : r.files) files.push_back({{"name", file.name}, {"bytes", file.bytes}});
+  json::Value movable = json::Value::array();
+  for (const WebMovable& lamp : r.movable) movable.push_back({{"name", lamp.name}, {"places", lamp.places}});
   return {{"output", o.output},
           {"cameras", json::Value(r.cameras)},
           {"light_groups", json::Value(r.groups)},
           {"times", json::Value(r.times)},
+          {"movable", std::move(movable)},
           {"width", r.width},
           {"height", r.height},
           {"texels_per_metre", r.density},
           {"files", std::move(files)},
           {"bytes", r.bytes},
           {"bake_seconds", r.bake_seconds},
+          {"lamp_seconds", r.lamp_seconds},
           {"seconds", r.seconds},
           {"notes", json::Value(r.notes)}};
 }
@@ -43,11 +47,15 @@ std::string to_text(const WebResult& r, const WebOptions& o) {
     text += fmt::format(", {} poses of what moves, {:.3g} to {:.3g} s", r.times.size(), r.times.front(),
                         r.times.back());
   text += fmt::format("\nlightmaps of {} × {} texels, {:.3g} per metre", r.width, r.height, r.density);
+  for (const WebMovable& lamp : r.movable)
+    text += fmt::format("\n{} can be dragged: its light was found at {}", lamp.name,
+                        counted(lamp.places, "place"));
   for (const WebFile& file : r.files) text += fmt::format("\n{:>10}  {}", size_text(file.bytes), file.name);
   text += fmt::format("\n{:>10}  in all\n", size_text(r.bytes));
   text += o.probes.empty()
               ? fmt::format("light baked in {:.1f} s, the rest took {:.1f} s", r.bake_seconds, r.seconds)
               : fmt::format("{:.1f} s", r.seconds);
+  if (!r.movable.empty()) text += fmt::format(", light of lamps elsewhere {:.1f} s", r.lamp_seconds);
   for (const std::string& note : r.notes) text += "\nnote: " + note;
   return text +
          fmt::format("\nany web host serves it; here: python3 -m http.server --directory {}", o.output);
@@ -78,12 +86,36 @@ void add_web_command(Command app, Context& context) {
                "Charts of the lightmap, as `ssphh lightmap` has them: own, scene or auto");
   light.option("--direct-samples", o.direct_samples, "Rays to each emitter with an extent, per texel")
       .range(1, 1 << 16);
-  light.flag("--merge-groups", o.merge_groups, "One lightmap of all light: less to load, and no lamp to dim");
+  const Option merge = light.flag("--merge-groups", o.merge_groups,
+                                  "One lightmap of all light: less to load, and no lamp to dim");
   light
       .option("--poses", o.poses,
               "Times that are baked, from the first to the last of the scene's animation; the page blends "
               "neighbours. Default: 5, or 1 with --probes")
       .range(1, 64);
+
+  const Command lamps = command.under("Lamps that are dragged");
+  const Option movable = lamps
+                             .option("--movable", o.movable,
+                                     "Point, spot and sphere lights that the page drags, by name, or `all`")
+                             .separated_by(',')
+                             .excludes(merge);
+  lamps
+      .option("--movable-step", o.movable_step,
+              "Most metres between the places where their light is found. Default: 1, for spots 0.5")
+      .range(1e-3, 1e3)
+      .needs(movable);
+  lamps
+      .option("--movable-reach", o.movable_reach,
+              "Metres that they may be moved along each axis, to either side")
+      .range(1e-2, 1e4)
+      .needs(movable);
+  lamps
+      .option("--movable-size", o.movable_size,
+              "Texels along the width of the lightmaps of their indirect light. Default: a quarter of the "
+              "lightmap's")
+      .range(16, lightmap::most_size)
+      .needs(movable);
 
   const Command pictures = command.under("Pictures");
   add_exposure_option(pictures, o.exposure, "Exposure in stops; auto: what suits each camera's picture");

@@ -1,13 +1,10 @@
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <glm/gtc/type_ptr.hpp>
-#include <unistd.h>
 
-#include <ssphh/core/hash.h>
 #include <ssphh/core/stopwatch.h>
 #include <ssphh/image/io.h>
 #include <ssphh/lightmap/light.h>
@@ -16,11 +13,12 @@
 #include <ssphh/pipeline/render_scene.h>
 #include <ssphh/pipeline/surface_light.h>
 #include <ssphh/probe_export/target.h>
-#include <ssphh/report/packed_image.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/scene_io/gltf_export.h>
 
 #include "commands/web.h"
+#include "commands/web_lamps.h"
+#include "commands/web_stage.h"
 #include "options/probe_options.h"
 #include "results/pictures.h"
 #include "results/web_folder.h"
@@ -33,12 +31,6 @@ constexpr double most_bytes = double{512} * 1024 * 1024;
 constexpr int usual_poses = 5;
 /// Texels per metre under which a wall may be thinner than one.
 constexpr float coarse_density = 8;
-
-/// The first digits of the content's hash stand in the name: a changed file is no old one of a cache.
-FolderFile hashed_file(const std::string& stem, const std::string& ending, std::vector<std::byte> data) {
-  const std::string digits = Hasher().bytes(data).finish().hex().substr(0, 8);
-  return {fmt::format("{}-{}.{}", stem, digits, ending), std::move(data)};
-}
 
 struct PageView {
   std::string name;
@@ -76,28 +68,6 @@ std::vector<PageView> views_of(const WebOptions& o, const scene::Scene& scene,
   }
   return views;
 }
-
-/// The lightmap's values need no more than the 9 bits that a page keeps: what is rounded packs better.
-image::Image rounded_light(image::Image picture) {
-  for (float& x : picture.pixels)
-    x = std::bit_cast<float>((std::bit_cast<std::uint32_t>(x) + 0x4000u) & 0xffff8000u);
-  return picture;
-}
-
-std::vector<std::byte> packed_light(const image::Image& atlas) {
-  const report::PackedImage p = report::pack_half(rounded_light(atlas));
-  const auto bytes = std::as_bytes(std::span(p.bytes));
-  return {bytes.begin(), bytes.end()};
-}
-
-/// What is lit, and where.
-struct LitStage {
-  const WebOptions& options;
-  const scene::Scene& scene;
-  const trace::SharedGeometry geometry;
-  const lightmap::Charts& charts;
-  const lightmap::Layout& layout;
-};
 
 struct PageGroup {
   std::string name;
@@ -149,7 +119,7 @@ void blend_charts(image::Image& all, const image::Image& without, std::span<cons
 void add_pose(const LitStage& stage, const probes::ProbeSet& set, float time, std::vector<PageGroup>& groups,
               std::vector<FolderFile>& files, const Control& control) {
   const WebOptions& o = stage.options;
-  const trace::TransportScene source(stage.geometry, stage.scene);
+  const trace::TransportScene& source = stage.source;
   const trace::PathTracer tracer(stage.geometry, stage.scene, time);
   const lightmap::Texels texels =
       lightmap::make_texels(stage.scene, time, stage.charts.charts, stage.layout, control);
@@ -311,11 +281,13 @@ WebResult run_web(const WebOptions& o, const Control& control) {
   const lightmap::Layout layout = lightmap::lay_out(charts.charts, o.layout);
   check_size(o, o.merge_groups ? 1 : scene::light_groups(scene).size(), result.times.size(), layout);
 
-  const LitStage stage{o, scene, std::make_shared<const trace::SceneGeometry>(scene), charts, layout};
+  std::vector<FolderFile> made;
+  const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
+  const LitStage stage{o, scene, geometry, trace::TransportScene(geometry, scene), charts, layout};
+  WebLamps lamps = find_web_lamps(stage, result.times, made, control);
   if (views.empty())
     views.push_back({"view", pipeline::camera_of(scene, "", o.scene.time, stage.geometry), 0, ""});
   std::vector<PageGroup> groups;
-  std::vector<FolderFile> made;
   probes::ProbeSet shown;  // of the pose nearest to --time
   float away = INFINITY;
   for (const float time : result.times) {
@@ -326,6 +298,9 @@ WebResult run_web(const WebOptions& o, const Control& control) {
     result.bake_seconds += bake.seconds();
     if (groups.empty()) groups = page_groups(o, set);
     add_pose(stage, set, time, groups, made, control);
+    const Stopwatch moving;
+    add_lamp_pose(stage, set, time, lamps, made, control);
+    result.lamp_seconds += moving.seconds();
     if (std::abs(time - o.scene.time) < away) away = std::abs(time - o.scene.time), shown = std::move(set);
   }
   take_pictures(stage, shown, views, made, control);
@@ -342,6 +317,7 @@ WebResult run_web(const WebOptions& o, const Control& control) {
   manifest["times"] = json::Value(result.times);
   manifest["cameras"] = views_json(o, views);
   manifest["lightmap"] = light_json(layout, groups);
+  if (!lamps.lamps.empty()) manifest["movable"] = to_json(lamps);
   if (scene.environment) manifest["environment_group"] = scene::light_group(*scene.environment);
   files.push_back(std::move(glb));
   for (FolderFile& file : made) files.push_back(std::move(file));
@@ -361,14 +337,17 @@ WebResult run_web(const WebOptions& o, const Control& control) {
   for (const WebFile& file : result.files) result.bytes += file.bytes;
   for (const PageView& view : views) result.cameras.push_back(view.name);
   for (const PageGroup& group : groups) result.groups.push_back(group.name);
+  for (const WebLamp& lamp : lamps.lamps) result.movable.push_back({lamp.name, lamp.lattice.places.size()});
   result.width = layout.width, result.height = layout.height, result.density = layout.density;
   if (layout.density < coarse_density)
     result.notes.push_back(fmt::format(
         "{:.2g} texels per metre: shadows are blurred over {:.2g} m, and light leaks through walls "
         "that are thinner; give a higher --size",
         layout.density, 1 / layout.density));
+  if (!o.movable.empty() && lamps.lamps.empty())
+    result.notes.push_back("no lamp of the scene can be dragged: --movable all has nothing to do");
   result.notes.insert(result.notes.end(), charts.notes.begin(), charts.notes.end());
-  result.seconds = all.seconds() - result.bake_seconds;
+  result.seconds = all.seconds() - result.bake_seconds - result.lamp_seconds;
   return result;
 }
 

@@ -21,7 +21,7 @@ function sharedExponent(r: number, g: number, b: number): number {
 }
 
 /** The reverse of report::pack_half: planes of low and high bytes of differences to the left, red and blue to green. */
-function unpack(planes: Uint8Array, width: number, height: number, out: Uint32Array): void {
+function unpack(planes: Uint8Array, width: number, height: number, take: (pixel: number, r: number, g: number, b: number) => void): void {
   const count = 3 * width * height, pixels = width * height, row = new Uint16Array(3 * width);
   const value = (c: number, p: number) => planes[c * pixels + p]! | planes[count + c * pixels + p]! << 8;
   for (let y = 0, p = 0; y < height; ++y) {
@@ -29,16 +29,23 @@ function unpack(planes: Uint8Array, width: number, height: number, out: Uint32Ar
       const before = x > 0 ? 3 * (x - 1) : 0;  // of the first in a row: the one above
       for (let c = 0; c < 3; ++c) row[3 * x + c] = value(c, p) + (p > 0 ? row[before + c]! : 0);
       const g = row[3 * x + 1]!;
-      out[p] = sharedExponent(row[3 * x]! + g & 0x7fff, g & 0x7fff, row[3 * x + 2]! + g & 0x7fff);
+      take(p, row[3 * x]! + g & 0x7fff, g & 0x7fff, row[3 * x + 2]! + g & 0x7fff);
     }
   }
 }
 
-async function readLayer(name: string, width: number, height: number, out: Uint32Array): Promise<void> {
+async function readPacked(name: string, width: number, height: number, take: (pixel: number, r: number, g: number, b: number) => void): Promise<void> {
   const packed = (await fetchWhole(name)).body!.pipeThrough(new DecompressionStream('deflate'));
   const planes = new Uint8Array(await new Response(packed).arrayBuffer());
   if (planes.length !== 6 * width * height) throw new Failure(`${name} is broken: it holds ${planes.length} bytes`);
-  unpack(planes, width, height, out);
+  unpack(planes, width, height, take);
+}
+
+/** The halves of a packed picture, three a pixel. */
+export async function readHalves(name: string, width: number, height: number): Promise<Uint16Array> {
+  const out = new Uint16Array(3 * width * height);
+  await readPacked(name, width, height, (p, r, g, b) => { out[3 * p] = r, out[3 * p + 1] = g, out[3 * p + 2] = b; });
+  return out;
 }
 
 /** Lightmaps as layers of one texture: that of group g at pose k is layer g · poses + k. */
@@ -47,7 +54,8 @@ export async function readAtlas(manifest: Manifest, progress: (share: number) =>
   const texels = new Uint32Array(width * height * names.length);
   let done = 0;
   for (const [i, name] of names.entries()) {
-    await readLayer(name, width, height, texels.subarray(i * width * height, (i + 1) * width * height));
+    const first = i * width * height;
+    await readPacked(name, width, height, (p, r, g, b) => { texels[first + p] = sharedExponent(r, g, b); });
     progress(++done / names.length);
   }
   const texture = new DataArrayTexture(texels, width, height, names.length);

@@ -1,4 +1,5 @@
 import { Color, Vector4, type DataArrayTexture, type IUniform } from 'three';
+import type { Lamps } from './lamps';
 import type { Manifest } from './manifest';
 
 /** The two poses that a time lies between, and the later one's share. */
@@ -11,6 +12,8 @@ export function posesAt(times: number[], time: number): [number, number, number]
   return [k, k + 1, Math.min(1, Math.max(0, share))];
 }
 
+const black = new Color(0, 0, 0);
+
 /** What lamps and poses are now, as the shaders take it: E = Σ weight · layer. */
 export class Light {
   readonly scales: Color[];
@@ -18,7 +21,7 @@ export class Light {
   readonly layers: IUniform<Vector4[]>;
   readonly atlas: IUniform<DataArrayTexture>;
 
-  constructor(private readonly manifest: Manifest, atlas: DataArrayTexture) {
+  constructor(private readonly manifest: Manifest, atlas: DataArrayTexture, readonly lamps: Lamps | undefined) {
     const { groups } = manifest.lightmap;
     this.scales = groups.map(() => new Color(1, 1, 1));
     this.atlas = { value: atlas };
@@ -34,8 +37,9 @@ export class Light {
   update(time: number): void {
     const { times, lightmap } = this.manifest, [a, b, share] = posesAt(times, time);
     const weights: [number, number][] = [[a, 1 - share], [b, share]];
-    lightmap.groups.forEach((_, g) => {
-      const { r, g: green, b: blue } = this.scales[g]!;
+    this.lamps?.update(time, group => this.scaleOf(group));
+    lightmap.groups.forEach(({ name }, g) => {
+      const { r, g: green, b: blue } = this.lamps?.draws(name) ? black : this.scales[g]!;
       weights.forEach(([pose, w], k) =>
         this.layers.value[2 * g + k]!.set(w * r, w * green, w * blue, g * times.length + pose));
     });

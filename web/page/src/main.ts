@@ -1,5 +1,7 @@
-import { Color, CustomToneMapping, LinearToneMapping, Matrix4, PerspectiveCamera, ShaderChunk, WebGLRenderer } from 'three';
+import { Color, CustomToneMapping, LinearToneMapping, Matrix4, PerspectiveCamera, ShaderChunk, WebGLRenderer, type Vector3 } from 'three';
 import { readAtlas } from './atlas';
+import { Handle, addressOf, placesIn } from './handles';
+import { Lamps, type Lamp } from './lamps';
 import { Light } from './light';
 import { Failure, readManifest, type Manifest, type View } from './manifest';
 import { Walk } from './walk';
@@ -23,6 +25,7 @@ ShaderChunk.tonemapping_pars_fragment = ShaderChunk.tonemapping_pars_fragment.re
 
 const shortcuts: [string, string][] = [
   ['W A S D, ↑ ↓', 'walk, on the level'], ['← →', 'turn'], ['Q E', 'down, up'], ['Shift', 'with keys: faster; with dragging: turn on the spot'],
+  ['Tab to a lamp’s ring, ← → ↑ ↓, Page Up, Page Down', 'move the lamp, where it can be; with Shift by less'],
   ['1 … 9', 'cameras'], ['[ ]', 'exposure'], [', .', 'time, where something moves'], ['T', 'truth beside it, where there is a picture'],
   ['R', 'all as it was'], ['H', 'controls away and back'], ['?', 'these keys'],
 ];
@@ -39,6 +42,7 @@ class Page {
   private waiting = false;
   private last = 0;
   private fast = false;
+  private readonly handles: Handle[];
 
   constructor(private readonly manifest: Manifest, private readonly renderer: WebGLRenderer, private readonly light: Light, private readonly world: World) {
     this.view = manifest.cameras[0]!;
@@ -46,8 +50,11 @@ class Page {
       if (!wipe.hidden) this.endWipe();
       this.draw();
     });
+    const lamps = this.light.lamps?.lamps ?? [];
+    this.handles = lamps.map(lamp => new Handle(lamp, this.camera, canvas, element('handles'), (moved, to) => void this.move(moved, lamp.lattice.go(lamp.at, to))));
     this.fill();
     this.listen();
+    this.takeAddress();
     panel.hidden = false;
     this.folded = window.matchMedia('(max-width: 40rem)').matches;
     this.choose(0);
@@ -104,6 +111,7 @@ class Page {
     element('help-button').addEventListener('click', () => element<HTMLDialogElement>('help').showModal());
     element('controls').addEventListener('submit', event => event.preventDefault());
     window.addEventListener('resize', () => this.draw());
+    window.addEventListener('hashchange', () => this.takeAddress());
     window.addEventListener('keydown', event => this.key(event));
     window.addEventListener('keyup', event => { this.fast = event.shiftKey; });
     canvas.addEventListener('webglcontextlost', event => {
@@ -160,8 +168,31 @@ class Page {
       input.value = input.defaultValue;
       input.dispatchEvent(new Event('input'));
     }
+    for (const { lamp } of this.handles) lamp.at.copy(lamp.home);
+    if (location.hash) history.replaceState(null, '', location.pathname + location.search);
     time.value = String(this.manifest.time);
     this.choose(Number(cameraList.value));
+  }
+
+  /** Lamps stand where the address says, if they may. */
+  private takeAddress(): void {
+    for (const [lamp, at] of placesIn(location.hash.slice(1), this.handles.map(handle => handle.lamp)))
+      if (lamp.lattice.isFree(at)) void this.move(lamp, at);
+  }
+
+  /** Takes a lamp to a place where it may be; the first time, its light is fetched before. */
+  private async move(lamp: Lamp, to: Vector3): Promise<void> {
+    if (lamp.light.length === 0) {
+      say(`Light of ${lamp.data.name}`);
+      await this.light.lamps!.load(lamp).then(() => say(''), (error: unknown) => {
+        say(`${lamp.data.name} stays where it is: ${error instanceof Failure ? error.message : error}`);
+        throw error;
+      });
+    }
+    lamp.at.copy(to);
+    history.replaceState(null, '', `#${addressOf(this.light.lamps!.lamps)}`);
+    this.endWipe();
+    this.pose();
   }
 
   /** The wipe shows what the picture shows: its camera, time, exposure and lamps. */
@@ -222,9 +253,11 @@ class Page {
     this.last = this.walk.busy ? now : 0;
     element('exposure-text').textContent = `${Number(exposure.value).toFixed(1)} EV`;
     this.fit();
+    this.light.lamps?.look(this.renderer, this.world.scene, Number(time.value), this.world.balls.values());
     this.renderer.toneMapping = this.manifest.tone_curve === 'filmic' ? CustomToneMapping : LinearToneMapping;
     this.renderer.toneMappingExposure = 2 ** Number(exposure.value);
     this.renderer.render(this.world.scene, this.camera);
+    this.handles.forEach(handle => handle.show());  // by the matrices of this frame
     document.body.dataset.drawn = 'yes';
   }
 }
@@ -242,7 +275,7 @@ async function start(): Promise<void> {
   if (layers > most) throw new Failure(`There are ${layers} lightmaps, and this graphics card takes ${most}. Write them with fewer --poses, or --merge-groups.`);
   const renderer = new WebGLRenderer({ canvas, context, antialias: true });
   const atlas = await readAtlas(manifest, share => say(`Light ${Math.round(100 * share)} %`));
-  const light = new Light(manifest, atlas);
+  const light = new Light(manifest, atlas, await Lamps.read(manifest));
   say('Scene');
   const world = await World.load(manifest, light);
   say('');

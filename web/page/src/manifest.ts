@@ -8,6 +8,28 @@ export interface View {
   truth?: Truth;
 }
 export interface Group { name: string; light_groups: string[]; textures: string[] }
+/** Places at which a lamp's light was found, at crossings of planes, and boxes in which it may be. */
+export interface LatticeData {
+  origin: number[];     // least corner of the first box [m]
+  box: number;          // edge of a box [m]
+  planes: number[][];   // along each axis, in boxes from the origin
+  boxes: string;        // file: of each box, x fastest, bit x + 2y + 4z for each corner of its cell that it sees
+  places: number;
+  place_of: number[];   // of each crossing, x fastest: index of its place; -1: none
+}
+/** A lamp that can be dragged. */
+export interface Movable {
+  name: string;
+  group: string;
+  type: 'point' | 'spot' | 'sphere';
+  at: number[];
+  power: number[];      // [W/sr]; of a sphere the radiance of its surface [W/(m² sr)]
+  radius: number;
+  range: number;        // 0: without end
+  spot?: { toward: number[]; inner_cone: number; outer_cone: number };
+  lattice: LatticeData;
+  textures: string[];   // of each pose: indirect light at all places, one lightmap below another
+}
 export interface Manifest {
   format: string;
   version: number;
@@ -22,6 +44,8 @@ export interface Manifest {
     height: number;
     groups: Group[];
   };
+  /** Their lightmaps, and the file that leads from the scene's charts to theirs. */
+  movable?: { width: number; height: number; charts: string; lamps: Movable[] };
   environment_group?: string;
 }
 

@@ -18,7 +18,7 @@ export class Walk {
   constructor(private readonly camera: PerspectiveCamera, private readonly canvas: HTMLCanvasElement, private readonly moved: () => void) {
     window.addEventListener('keydown', event => {
       if (event.ctrlKey || event.metaKey || event.altKey || !(event.code in keys || event.code in turns)) return;
-      const taken = (event.target as HTMLElement).closest(event.code.startsWith('Arrow') ? 'input, select, dialog' : 'select, dialog');
+      const taken = (event.target as HTMLElement).closest(event.code.startsWith('Arrow') ? 'input, select, dialog, .handle' : 'select, dialog');
       if (taken) return;
       event.preventDefault();
       this.held.add(event.code);

@@ -28,6 +28,8 @@ function groupOf(object: Object3D | null): string | undefined {
 export class World {
   readonly scene = new Scene();
   private readonly emitters: Emitter[] = [];
+  /** Lamps that are balls, by light group. */
+  readonly balls = new Map<string, Mesh>();
   private readonly mixer: AnimationMixer;
   private skyScale: Color | undefined;
 
@@ -64,6 +66,11 @@ export class World {
     this.mixer.setTime(time);
     this.light.update(time);
     for (const { color, file, scale } of this.emitters) color.copy(file).multiply(scale);
+    for (const lamp of this.light.lamps?.lamps ?? []) {
+      const ball = this.balls.get(lamp.data.group);
+      if (!ball) continue;
+      ball.position.copy(ball.parent!.worldToLocal(lamp.at.clone()));
+    }
     // A background has one factor: lamps keep their colour, the sky only its brightness.
     if (this.skyScale) this.scene.backgroundIntensity = (this.skyScale.r + this.skyScale.g + this.skyScale.b) / 3;
   }
@@ -76,6 +83,7 @@ export class World {
     const glows = material.emissive.getHex() !== 0 || material.emissiveMap !== null, group = glows ? groupOf(mesh) : undefined;
     const inAtlas = mesh.geometry.hasAttribute('uv1'), key = `${material.uuid} ${inAtlas} ${group}`;
     if (inAtlas) mesh.geometry.setAttribute('atlasAt', mesh.geometry.getAttribute('uv1'));
+    if (inAtlas && this.light.lamps) mesh.geometry.setAttribute('movedAt', this.light.lamps.place(mesh.geometry));
     let own = known.get(key) as MeshStandardMaterial | undefined;
     if (!own) {
       own = lit(material, mesh.geometry, this.light);
@@ -102,6 +110,7 @@ export class World {
     object.getWorldPosition(ball.position);
     this.scene.attach(ball);
     object.parent.attach(ball);
+    this.balls.set(group ?? object.name, ball);
     this.glow(ball.material.color, group ?? object.name);
   }
 

@@ -26,7 +26,8 @@ Places find_places(const Texels& texels, const rays::PosedWorld& world, const Co
 
 /// The atlas: irradiance of each texel's place, from which that of a centre outside of the chart follows as
 /// the light changes toward it; hidden texels take the mean of their neighbours on the chart, those beside
-/// light first, and gutters that of the chart's rim. The same bits for any number of threads. Throws
+/// light first, and gutters that of the chart's rim. `irradiance` is asked of elements of `places.points`.
+/// The same bits for any number of threads. Throws
 /// Error for places of other texels and for texels that make_texels() did not find, Cancelled when asked to
 /// stop.
 image::Image light_texels(const Texels& texels, const Places& places, const IrradianceAt& irradiance,
