@@ -114,6 +114,11 @@ void add_view_command(Command app, Context& context) {
   command.option("--camera", o.viewer.camera, "Camera by name; default: the scene's first");
   command.option("--size", o.size, "Of the window, WIDTHxHEIGHT");
   command.flag("--no-panels", o.no_panels, "The picture alone (Tab brings the panels)");
+  add_tev_option(
+      command, o.tev,
+      fmt::format("Shift+F12 shows the picture in the viewer tev that listens there, and each pass "
+                  "of a ground truth is shown. Default: {}, for Shift+F12 alone",
+                  usual_tev));
 
   const Command probes = command.under("Probes");
   probes.option("--probes", o.viewer.probes,
@@ -129,11 +134,6 @@ void add_view_command(Command app, Context& context) {
   probes.flag("--force", o.viewer.force, "Take a probe file of another scene, with a warning");
   add_setting_options(command, o);
 
-  add_tev_option(
-      command, o.tev,
-      fmt::format("Shift+F12 shows the picture in the viewer tev that listens there, and each pass "
-                  "of a ground truth is shown. Default: {}, for Shift+F12 alone",
-                  usual_tev));
   add_farm_options(command, o.farm);
 
   const Command output = command.under("Without hands");

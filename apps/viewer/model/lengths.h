@@ -8,8 +8,8 @@
 namespace ssphh::viewer {
 
 struct Lengths {
-  float least;  ///< about the shortest that somebody looks at [m]; a tenth of a metre in rooms and halls
-  float step;   ///< by which a number changes when it is dragged by a pixel [m]; a centimetre in a room
+  float least;   ///< about the shortest that somebody looks at [m]; a tenth of a metre in rooms and halls
+  float step;    ///< by which a number changes when it is dragged by a pixel [m]; a centimetre in a room
   int decimals;  ///< that a step has, two at least
 };
 Lengths lengths_of(const scene::Bounds& bounds);

@@ -60,7 +60,8 @@ std::vector<bake::BakeParams> passes_of(const bake::BakeParams& fine) {
 
 double paths_per_probe(const bake::BakeParams& params) {
   double paths = 0;
-  for (const bake::BakeParams& pass : passes_of(params)) paths += 6.0 * pass.face_size * pass.face_size * pass.path.spp;
+  for (const bake::BakeParams& pass : passes_of(params))
+    paths += 6.0 * pass.face_size * pass.face_size * pass.path.spp;
   return paths;
 }
 

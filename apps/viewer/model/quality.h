@@ -38,8 +38,8 @@ double paths_per_probe(const bake::BakeParams& params);
 /// What is known of the window's light, to tell what another quality would cost.
 struct LightKnown {
   std::size_t probes = 0;
-  double paths_per_second = 0;  ///< of GEN, at each probe; 0: none was done yet
-  double surfels = 0;           ///< of live light; 0: there is none
+  double paths_per_second = 0;           ///< of GEN, at each probe; 0: none was done yet
+  double surfels = 0;                    ///< of live light; 0: there is none
   transport::TransportParams transport;  ///< that it was made with
   double live_seconds = 0;               ///< that making it took
 };

@@ -1,8 +1,9 @@
 // Scenes as large as a coin and as a town are handled like rooms.
 
+#include "model/lengths.h"
+
 #include <gmock/gmock.h>
 
-#include "model/lengths.h"
 #include "panel_stage.h"
 
 namespace ssphh::viewer {

@@ -42,7 +42,8 @@ TEST_F(Orbit, PassesNoWallAndKeepsThePointInItsPlace) {
 }
 
 TEST_F(Orbit, IsAsAlwaysWhereNothingStandsInTheWay) {
-  EXPECT_EQ(orbited_within(view_, point_, 0.02f, -0.01f, world_), orbited_about(view_, point_, 0.02f, -0.01f));
+  EXPECT_EQ(orbited_within(view_, point_, 0.02f, -0.01f, world_),
+            orbited_about(view_, point_, 0.02f, -0.01f));
   View parallel = view_;
   parallel.orthographic = true;
   EXPECT_EQ(orbited_within(parallel, point_, 2, 0, world_), orbited_about(parallel, point_, 2, 0));

@@ -1,12 +1,13 @@
 // Pictures that another program shows: in the background, the newest of each name.
 
+#include "model/picture_sender.h"
+
 #include <atomic>
 #include <mutex>
 
 #include <gmock/gmock.h>
 
 #include "gl_stage.h"
-#include "model/picture_sender.h"
 
 namespace ssphh::viewer {
 namespace {

@@ -1,5 +1,7 @@
 // Qualities that are chosen in the window, and what they cost.
 
+#include "model/quality.h"
+
 #include <gmock/gmock.h>
 
 #include <ssphh/bake/effort.h>
@@ -7,7 +9,6 @@
 
 #include "gl_stage.h"
 #include "model/preferences.h"
-#include "model/quality.h"
 #include "panel_stage.h"
 
 namespace ssphh::viewer {
@@ -65,11 +66,11 @@ TEST(ViewerQuality, CostIsThatOfNowInProportion) {
   EXPECT_DOUBLE_EQ(same.seconds, 10 * 6.0 * (20 * 20 * 8 + 10 * 10) / 1e5);
   const LightCost best = cost_of(Quality::best, known);
   EXPECT_NEAR(best.surfels, 1000 * 2.8 * 2.8, 0.01);
-  EXPECT_DOUBLE_EQ(best.live_seconds,
-                   2 * (best.surfels * 256 + 10 * 4096) / (1000.0 * 128 + 10 * 384));
+  EXPECT_DOUBLE_EQ(best.live_seconds, 2 * (best.surfels * 256 + 10 * 4096) / (1000.0 * 128 + 10 * 384));
   EXPECT_DOUBLE_EQ(best.bytes, 64e6 + 2000 * best.surfels + 45 * (best.surfels * 256 + 10 * 4096));
-  EXPECT_EQ(cost_text(Quality::best, known), "GEN: 16.2 million paths, with VIZ some 3 min\n"
-                                             "live: up to 7840 surfels, 0.2 GB, some 31 s");
+  EXPECT_EQ(cost_text(Quality::best, known),
+            "GEN: 16.2 million paths, with VIZ some 3 min\n"
+            "live: up to 7840 surfels, 0.2 GB, some 31 s");
 }
 
 class QualityPicker : public PanelStage {
