@@ -83,6 +83,11 @@ int run(int argc, char** argv) {
   try {
     context.run();
     return context.exit_code;
+  } catch (const ReaderGone&) {
+    // As any tool ends in a pipe
+    std::signal(SIGPIPE, SIG_DFL);
+    std::raise(SIGPIPE);
+    return failure;
   } catch (const Cancelled&) {
     return fail(context, "cancelled");
   } catch (const std::bad_alloc&) {

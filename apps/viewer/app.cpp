@@ -17,14 +17,15 @@
 #include "panels/panels.h"
 
 namespace ssphh::viewer {
-App::App(Window& window_, const ViewerOptions& options_, LoadScene load)
-    : window(window_), options(options_), load_(std::move(load)), autosave_(options_.autosave) {
+App::App(Window& window_, const ViewerOptions& options_, LoadScene load, ShowElsewhere show)
+    : window(window_),
+      options(options_),
+      elsewhere(std::move(show)),
+      load_(std::move(load)),
+      autosave_(options_.autosave) {
   view = look_at({4, 3, 6}, {0, 1, 0}, 0.9f);
   panels = options.panels;
   report.renderer = window.renderer();
-  // For looking at: a twentieth of the work of `ssphh bake`.
-  bake_params.path.spp = 8;
-  bake_params.face_size = 20;
   last_turn_ = last_change_ = last_frame_ = window.seconds();
   try {
     if (!options.preferences.empty()) preferences = read_preferences(options.preferences);
@@ -33,8 +34,9 @@ App::App(Window& window_, const ViewerOptions& options_, LoadScene load)
   }
   take_look();
   kept_look_ = look();
-  if (options.farm) farm.emplace(*options.farm);
+  if (options.farm) farm.emplace(*options.farm, options.own_farm);
   for (const auto& [name, value] : options.settings) set_setting(settings, name, value);
+  take_quality();
 }
 
 double App::turn(const InjectedInput& input) {
@@ -53,10 +55,12 @@ double App::turn(const InjectedInput& input) {
   if (farm) take_farm_news();
   take_truth();
   take_marks();
+  take_shown();
   watch_file();
   note_view();
   keep_unsaved();
   update_time(std::min(elapsed, 0.25));
+  take_quality();
 
   const bool busy = job.running() || reference.status().running || marks.status().running;
   // How far it is
@@ -105,7 +109,10 @@ void App::take_work() {
 }
 
 void App::take_truth() {
-  if (reference.poll()) screen_.truth_dirty = true, redraw();
+  if (reference.poll()) {
+    screen_.truth_dirty = true, redraw();
+    if (options.show_truth) send_truth();
+  }
   const std::string error = reference.take_error();
   if (error.empty()) return;
   redraw();
@@ -125,6 +132,10 @@ void App::take_marks() {
   settings.draw.clear();
   if (failures_end) throw std::runtime_error(error);
   complain(error);
+}
+
+void App::take_shown() {
+  if (const std::string problem = elsewhere.poll(); !problem.empty()) say(problem);
 }
 
 void App::finish_frame() {
@@ -223,8 +234,8 @@ bool App::settled() const {
 
 bool App::current() const {
   if (!scene_open()) return job.idle();
-  if (!job.idle() || applied_.light_stale || screen_.scene_dirty || screen_.waiting_maps > 0 ||
-      !screen_.drawn || screen_.awaits_picture())
+  if (!job.idle() || !elsewhere.idle() || screen_.to_send || applied_.light_stale || screen_.scene_dirty ||
+      screen_.waiting_maps > 0 || !screen_.drawn || screen_.awaits_picture())
     return false;
   if (!(screen_.drawn->view == view) || !same_picture(screen_.drawn->settings, settings) || screen_.coarse)
     return false;

@@ -20,6 +20,7 @@
 #include "model/frame_times.h"
 #include "model/inspection.h"
 #include "model/marks.h"
+#include "model/picture_sender.h"
 #include "model/preferences.h"
 #include "model/question.h"
 #include "model/reading.h"
@@ -39,7 +40,7 @@ bool is_probe_file(const std::string& name);
 
 class App {
  public:
-  App(Window& window, const ViewerOptions& options, LoadScene load);
+  App(Window& window, const ViewerOptions& options, LoadScene load, ShowElsewhere show = {});
   /// Work that is not saved, and that the user did not discard, is kept for the next session.
   ~App();
   App(const App&) = delete;
@@ -54,6 +55,8 @@ class App {
   /// The same of marks; those that failed are switched off.
   void take_truth();
   void take_marks();
+  /// Tells why a picture is not shown elsewhere.
+  void take_shown();
   /// Takes over what the farm's broker told, if there is one; tells the user when it is lost, and back.
   void take_farm_news();
 
@@ -63,7 +66,7 @@ class App {
   /// done; it can be cancelled as any job.
   void open_then(const std::string& source, std::function<void()> then);
   /// open_then(), and light for the scene: as the option --probes has it unless that names a file; else of
-  /// its SPHLs, if it has any.
+  /// its SPHLs, if it has any, or by hand at places that are found.
   void open_lit(const std::string& source);
   /// What open_lit() does once the scene is there.
   void light_opened();
@@ -84,6 +87,8 @@ class App {
   /// Every minute in which something is not saved it is written to the folder of autosaves, in the
   /// background.
   void keep_unsaved();
+  /// At once, as the end of the session does. Touches no window.
+  void keep_at_once();
   /// Whether that is under way.
   bool keeping() const { return !keeper_.idle(); }
   /// Lets the user choose a file, at first in this folder; empty: in the scene's.
@@ -117,6 +122,9 @@ class App {
   void save_stats(const std::string& file);
   /// Of the picture alone, now, or of the window with its panels at the end of the next turn. PNG.
   void screenshot(const std::string& file, bool panels);
+  /// The picture as linear radiance, and the truth where one is traced, in the program that shows pictures of
+  /// this session elsewhere. Throws Error where there is none.
+  void show_elsewhere();
   void go_to_camera(const std::string& name);
   /// The view of now as a camera of the scene; an empty name becomes "view 1" or the next number.
   void save_camera(const std::string& name);
@@ -164,6 +172,13 @@ class App {
   bool baking() const;
   /// From now on this machine does bakes, also the one that runs.
   void bake_here();
+  /// A farm of this session's own whose broker or workers have ended.
+  void restart_farm();
+  /// Samples and faces of GEN as a quality has them, also where they were set by hand, and live light anew.
+  void use_quality(Quality quality);
+  bool quality_by_hand() const;
+  /// To tell what a quality costs.
+  LightKnown light_known() const;
   /// Of one name, or of keys that play with the scene's animations, as probes::read_probe_keys() has them.
   void take_probe_file(const std::string& file);
   /// Makes the surface records or fitted weights of the probes ready, in the background.
@@ -211,6 +226,8 @@ class App {
   /// Something changed that the window must show.
   void redraw() { redraw_ = 3; }
   std::vector<std::string> camera_names() const;
+  /// Of the scene, short: "rooms".
+  std::string picture_name() const;
   /// Name of a new file in the current folder: "rooms-01.png".
   std::string free_file(const std::string& ending) const;
   /// Of the selected lamp or SPHL; none for other selections and for lamps without a place.
@@ -226,6 +243,7 @@ class App {
   ProbeLight light;
   Reference reference;
   Marks marks;
+  PictureSender elsewhere;
   BackgroundJob job;
   std::optional<FarmClient> farm;
   Preferences preferences;
@@ -277,7 +295,9 @@ class App {
   void delete_lamp();
   /// Throws Error where a set is not of the scene; with options.force warns.
   void fit_to_scene(probes::ProbeSet& set, const std::string& file) const;
-  LiveLightParams light_params() const;
+  /// By the quality that is set, which live light has from then on.
+  LiveLightParams light_params();
+  void take_quality();
   void update_time(double seconds);
   void apply_edits();
   /// The lamps that there are now, to the renderer.
@@ -311,6 +331,9 @@ class App {
   /// What methods may stand on: the geometry knows nodes of the scene as opened, edits may bring others;
   /// null: they build their own.
   trace::SharedGeometry geometry_of_methods(const scene::Scene& edited) const;
+  /// Sends the picture elsewhere, if that was asked for and it is there.
+  void send_picture();
+  void send_truth();
   void update_visible();
   std::optional<float> suitable_exposure() const;
   bool show_exposure(float ev);
@@ -318,7 +341,9 @@ class App {
     return settings.antialias && !needs_truth(settings) && !settings.false_color && !draws_marks();
   }
   bool reads() const { return settings.histogram || settings.waveform || settings.false_color; }
-  bool wants_linear() const { return needs_truth(settings) || inspecting || reads() || draws_marks(); }
+  bool wants_linear() const {
+    return needs_truth(settings) || inspecting || reads() || draws_marks() || screen_.to_send;
+  }
 
   LoadScene load_;
   std::optional<gl::Context> gl_;  ///< adopted with the first scene
@@ -334,6 +359,9 @@ class App {
     Edits edits;
   };
   std::optional<Baked> baked_;  ///< what the last bake was started with
+  std::string farm_failure_;    ///< that was told last
+  double gen_rate_ = 0;         ///< paths per second of the last GEN with VIZ; 0: there was none
+  double live_seconds_ = 0;     ///< that the live light of now took
   ExposureFollower exposure_;
   ViewHistory views_;
   std::optional<InspectedAt> inspected_;  ///< what `inspection` holds for

@@ -9,6 +9,7 @@
 #include <ssphh/study/default_view.h>
 
 #include "app.h"
+#include "model/lengths.h"
 #include "model/overlay_file.h"
 
 namespace ssphh::viewer {
@@ -40,11 +41,19 @@ void App::written(const std::string& verb, const std::string& file) {
   say(verb + " " + file);
 }
 
-std::string App::free_file(const std::string& ending) const {
-  const std::string stem =
+std::string App::picture_name() const {
+  std::string stem =
       std::filesystem::path(document.source.substr(document.source.rfind(':') + 1)).stem().stem().string();
+  // A built-in scene's name holds its parameters, and not every system takes these signs.
+  for (char& c : stem) {
+    if (std::string_view("?*=&|<>\"\\/:").find(c) != std::string_view::npos) c = '-';
+  }
+  return stem.empty() ? "view" : stem;
+}
+
+std::string App::free_file(const std::string& ending) const {
   for (int n = 1;; ++n) {
-    const std::string name = fmt::format("{}-{:02}", stem.empty() ? "view" : stem, n);
+    const std::string name = fmt::format("{}-{:02}", picture_name(), n);
     // An overlay would lie on the scene of its name.
     const bool pair = ending == ".glb" || ending == overlay_ending;
     const auto taken = [&](std::string_view e) { return std::filesystem::exists(name + std::string(e)); };
@@ -162,7 +171,7 @@ View App::view_from(const std::string& camera) const {
   if (!camera.empty() || !document.edits().cameras.empty()) return start_view(document, camera);
   const scene::CameraPose pose = study::default_view(*document.scene, *picking_, document.time);
   const float distance = glm::distance(vec3(pose.world[3]), document.bounds.center());
-  return view_of(pose, document.bounds.empty() ? 3 : std::max(distance, 0.1f));
+  return view_of(pose, document.bounds.empty() ? 3 : std::max(distance, lengths_of(document.bounds).least));
 }
 
 void App::go_to_camera(const std::string& name) {
@@ -248,7 +257,7 @@ void App::delete_selection() {
 
 void App::add_sphl(const vec3& position) {
   document.edit_at_once("place SPHL", [&](Edits& edits) {
-    edits.sphls.push_back({-1, position, new_sphl_name(edits), 0.1f, true});
+    edits.sphls.push_back({-1, position, new_sphl_name(edits), lengths_of(document.bounds).least, true});
   });
   selection = {Kind::sphl, static_cast<int>(document.edits().sphls.size()) - 1};
   redraw();

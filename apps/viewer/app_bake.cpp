@@ -1,7 +1,5 @@
 // Light that is path traced, GEN and VIZ: here or by a farm's workers.
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include <ssphh/core/counted.h>
@@ -19,16 +17,6 @@ void add_dark_groups(probes::ProbeSet& set, const std::vector<std::string>& grou
   for (const std::string& group : groups) set.light_groups.push_back({group, vec3(1)});
   for (probes::Probe& probe : set.probes)
     probe.groups.assign(set.light_groups.size(), {{}, sh::RadianceSh(set.degree)});
-}
-
-/// First a glance at all probes where that is a small part of the work; the bake itself comes last.
-std::vector<bake::BakeParams> passes_of(const bake::BakeParams& fine) {
-  const auto work = [](const bake::BakeParams& p) { return p.face_size * p.face_size * p.path.spp; };
-  bake::BakeParams coarse = fine;
-  coarse.face_size = std::max(8, fine.face_size / 2);
-  coarse.path.spp = std::max(1, fine.path.spp / 8);
-  if (8 * work(coarse) > work(fine)) return {fine};
-  return {coarse, fine};
 }
 
 std::string done_text(const std::string& what, const std::optional<farm::FarmReport>& farm) {
@@ -90,12 +78,14 @@ void App::start_gen(bool viz_only) {
               }
               std::optional<farm::FarmReport> by;
               if (crew) by = crew->report();
-              return [this, baked, by, keep = params.keep_light] {
+              const double paths = paths_per_probe(params) * static_cast<double>(set.probes.size());
+              return [this, baked, by, paths, keep = params.keep_light] {
                 report.farm = by;
                 if (keep) {
                   light.not_saved("VIZ");
                   say(done_text(fmt::format("VIZ: {} edges", probes::edge_count(*baked)), by));
                 } else {
+                  gen_rate_ = paths / job.status().seconds;
                   light.take(std::move(*baked), "GEN");
                   light.not_saved("GEN");
                   say(done_text("GEN is done", by));
@@ -118,10 +108,24 @@ void App::stop_stale_bake() {
   applied_.light_is_stale(window.seconds());
 }
 
+void App::restart_farm() {
+  farm->restart();
+  say("The local farm is started again; what waits there goes on.");
+}
+
 void App::take_farm_news() {
+  if (const std::string now = farm->failure(); now != farm_failure_) {
+    farm_failure_ = now;
+    if (!now.empty())
+      complain(
+          fmt::format("{}. \"Start it again\" in the panel Farm does so; \"Bake here\" has this machine do "
+                      "what waits.",
+                      now));
+  }
   const bool was_lost = farm->lost();
   if (!farm->poll()) return;
   if (open_tab == "Farm") redraw();
+  if (!farm_failure_.empty()) return;
   if (farm->lost() == was_lost) return;
   if (was_lost) return say(fmt::format("{} answers again.", farm->endpoint()));
   const char* what = baking() && farm->used

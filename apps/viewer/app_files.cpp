@@ -33,6 +33,10 @@ Document snapshot(const Document& document) {
 }  // namespace
 
 App::~App() {
+  keep_at_once();
+}
+
+void App::keep_at_once() {
   try {
     if (keeps()) leave();
   } catch (const std::exception& e) {
@@ -128,7 +132,7 @@ void App::remember_scene(const std::string& source, bool stays) {
 }
 
 WindowLook App::look() const {
-  return {side_width, settings.histogram, settings.waveform, settings.false_color};
+  return {side_width, settings.histogram, settings.waveform, settings.false_color, settings.quality};
 }
 
 void App::take_look() {
@@ -137,6 +141,7 @@ void App::take_look() {
   settings.histogram = preferences.look.histogram;
   settings.waveform = preferences.look.waveform;
   settings.false_color = preferences.look.false_color;
+  settings.quality = preferences.look.quality;
 }
 
 void App::keep_look() {

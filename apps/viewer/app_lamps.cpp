@@ -9,6 +9,7 @@
 
 #include "app.h"
 #include "model/lamp_profile.h"
+#include "model/lengths.h"
 #include "model/pick.h"
 
 namespace ssphh::viewer {
@@ -22,17 +23,18 @@ constexpr float off_surface = 0.5f;
 void App::add_lamp(scene::LightType type) {
   const rays::RayQuery middle = pixel_ray(view, {0.5f, 0.5f}, viewport.aspect());
   vec3 place = view.center();
-  float distance = std::max(view.focus, 0.1f);
+  const float least = lengths_of(document.bounds).least;
+  float distance = std::max(view.focus, least);
   if (const auto surface = pick_surface(*picking_, document.time, middle)) {
     const float depth = glm::distance(surface->position, view.eye);
-    const rays::RayQuery off{surface->position + 1e-3f * surface->normal, surface->normal, 1e4f};
+    const rays::RayQuery off{surface->position + 0.01f * least * surface->normal, surface->normal, 1e4f};
     const auto ceiling = pick_surface(*picking_, document.time, off);
     const float room = ceiling ? glm::distance(ceiling->position, off.origin) : depth;
     place = surface->position + std::min({off_surface, 0.5f * room, 0.5f * depth}) * surface->normal;
     distance = std::min(depth, room);
   }
   add_lamp(new_lamp(type, new_lamp_name(document.edits(), std::string(name_of(type))), place,
-                    std::max(distance, 0.1f), settings.exposure));
+                    std::max(distance, least), settings.exposure));
 }
 
 void App::add_lamp(LightEdit lamp) {

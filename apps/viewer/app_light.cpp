@@ -54,12 +54,49 @@ void App::use_probes(const std::string& what) {
   }
 }
 
-LiveLightParams App::light_params() const {
+LiveLightParams App::light_params() {
+  const QualityEffort effort = effort_of(settings.quality, options.transport);
   LiveLightParams params;
   params.geometry = geometry_;
-  params.relight.transport = options.transport;
-  params.relight.records.points = options.records;
+  params.relight.transport = effort.transport;
+  params.relight.records.points = options.records.value_or(effort.records);
+  applied_.live_quality = settings.quality;
   return params;
+}
+
+void App::take_quality() {
+  if (applied_.quality != settings.quality) use_quality(settings.quality);
+  if (!light.live() || applied_.live_quality == settings.quality) return;
+  applied_.live_quality = settings.quality;
+  applied_.light_is_stale(window.seconds());
+}
+
+void App::use_quality(Quality quality) {
+  settings.quality = quality;
+  applied_.quality = quality;
+  const QualityEffort effort = effort_of(quality);
+  bake_params.path.spp = effort.spp;
+  bake_params.face_size = effort.face_size;
+  redraw();
+}
+
+bool App::quality_by_hand() const {
+  const QualityEffort effort = effort_of(settings.quality);
+  return bake_params.path.spp != effort.spp || bake_params.face_size != effort.face_size;
+}
+
+LightKnown App::light_known() const {
+  LightKnown known;
+  known.probes = document.places().size();
+  known.paths_per_second = gen_rate_;
+  known.transport = options.transport;
+  if (light.live()) {
+    const transport::TransportNetwork& network = light.live_light()->session().network();
+    known.surfels = static_cast<double>(network.surfel_count());
+    known.transport = network.params();
+    known.live_seconds = live_seconds_;
+  }
+  return known;
 }
 
 void App::rebuild_light() {
@@ -74,6 +111,7 @@ void App::rebuild_light() {
   job.start("lighting probes", [this, scene, params, time = document.time](const Control& control) {
     auto live = std::make_shared<LiveLight>(scene, params, time, control);
     return [this, live] {
+      live_seconds_ = job.status().seconds;
       light.take(live);
       prepare_surfaces();
     };
@@ -87,6 +125,7 @@ void App::place_probes(float spacing) {
   job.start("placing probes", [this, scene, params, time = document.time](const Control& control) {
     auto live = std::make_shared<LiveLight>(scene, params, time, control);
     return [this, live] {
+      live_seconds_ = job.status().seconds;
       take_places("place probes", live->session().places());
       light.take(live);
       prepare_surfaces();

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "app.h"
+#include "model/lengths.h"
 
 namespace ssphh::viewer {
 namespace {
@@ -110,7 +111,9 @@ void App::take_document(Loaded loaded) {
   screen_.forget();
   exposure_.forget();
   applied_.light_stale = applied_.bakes_again = false;
-  fly_speed = document.bounds.empty() ? 2 : std::max(0.2f, 0.25f * document.bounds.radius());
+  fly_speed = document.bounds.empty()
+                  ? 2
+                  : std::max(2 * lengths_of(document.bounds).least, 0.25f * document.bounds.radius());
   update_title();
   redraw();
 }
@@ -150,6 +153,8 @@ void App::light_opened() {
     use_probes(options.probes);
   } else if (std::ranges::any_of(document.edits().sphls, enabled)) {
     light_scene_probes();
+  } else if (options.probes.empty() && by_hand()) {
+    place_probes(0);  // direct light alone looks broken in most rooms
   }
   offer_recovery();
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include <ssphh/image/exposure.h>
 #include <ssphh/rays/posed_world.h>
 
@@ -51,6 +53,7 @@ void App::draw_scene() {
   }
   if (screen_.drawing) continue_picture();
   if (screen_.awaits_picture()) return;
+  send_picture();
   draw_outline();
   update_truth();
   update_readings();
@@ -212,6 +215,24 @@ bool App::follow_exposure() {
 
 bool App::take_exposure() {
   return screen_.suits && show_exposure(exposure_.take(*screen_.suits));
+}
+
+void App::show_elsewhere() {
+  if (!elsewhere) throw Error("picture", "there is no program that shows it elsewhere");
+  screen_.to_send = true;
+  send_truth();
+  say(fmt::format("showing {} in tev", picture_name()));
+}
+
+void App::send_picture() {
+  if (!screen_.to_send || picture.linear().empty()) return;
+  screen_.to_send = false;
+  elsewhere.send(picture_name(), std::make_shared<const image::Image>(picture.linear()));
+}
+
+void App::send_truth() {
+  if (elsewhere && reference.image().color)
+    elsewhere.send(picture_name() + " " + settings.against, reference.image().color);
 }
 
 /// Which probes the eye sees: their names are shown, the others' are not.

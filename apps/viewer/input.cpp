@@ -13,6 +13,7 @@
 #include "app.h"
 #include "model/framing.h"
 #include "model/gestures.h"
+#include "model/lengths.h"
 #include "model/pick.h"
 #include "overlay.h"
 
@@ -46,7 +47,7 @@ constexpr Shortcut all_shortcuts[] = {
     {"Ctrl+Z, Ctrl+Y", "undo, redo (also Ctrl+Shift+Z)"},
     {"Ctrl+O", "open a file"},
     {"Ctrl+S, Ctrl+Shift+S", "save the scene over its own GLB file, under a name"},
-    {"F12", "screenshot"},
+    {"F12, Shift+F12", "screenshot; the picture in the program tev"},
     {"Tab", "panels on, off"},
     {"F1 or H", "this help"},
     {"Escape", "leave a mode; no selection"},
@@ -124,7 +125,8 @@ void handle_keys(App& app) {
     const bool steps = key == '[' || key == ']';
     if (steps ? repeated(key) : pressed(key)) press_setting_key(app, key);
   }
-  if (pressed(GLFW_KEY_F12)) app.screenshot(app.free_file(".png"), false);
+  if (pressed(GLFW_KEY_F12))
+    ImGui::GetIO().KeyShift ? app.show_elsewhere() : app.screenshot(app.free_file(".png"), false);
 }
 
 void fly(App& app, float seconds) {
@@ -173,7 +175,8 @@ void place_sphl(App& app) {
   if (!app.picking()) return;
   const auto surface = pick_surface(*app.picking(), app.document.time, mouse_ray(app));
   if (!surface) return app.say("there is no surface under the mouse");
-  const rays::RayQuery off{surface->position + 1e-3f * surface->normal, surface->normal, 100};
+  const float gap = 0.01f * lengths_of(app.document.bounds).least;
+  const rays::RayQuery off{surface->position + gap * surface->normal, surface->normal, 100};
   const auto ceiling = pick_surface(*app.picking(), app.document.time, off);
   const float room = ceiling ? glm::distance(ceiling->position, off.origin) : 1;
   app.add_sphl(surface->position + std::min(0.5f, 0.5f * room) * surface->normal);
@@ -247,8 +250,9 @@ void continue_drag(App& app) {
   };
   using What = Drag::What;
   const What what = app.drag.what;
-  if (what == What::view && app.drag.pivot)
-    app.view = orbited_about(app.view, *app.drag.pivot, -0.005f * delta.x, -0.005f * delta.y);
+  if (what == What::view && app.drag.pivot && app.picking())
+    app.view = orbited_within(app.view, *app.drag.pivot, -0.005f * delta.x, -0.005f * delta.y,
+                              {*app.picking(), app.document.time});
   else if (what == What::view)
     drag_view(ViewDrag::orbit);
   if (what == What::look) drag_view(ViewDrag::look);

@@ -69,6 +69,8 @@ struct Screen {
   std::optional<Settings> truth_settings;   ///< that the truth was made for
   std::pair<std::string, int> truth_asked;  ///< method and depth of what is traced
 
+  bool to_send = false;  ///< the next picture is to be shown elsewhere, too
+
   bool scene_dirty = true, balls_dirty = true, truth_dirty = true;
 
   /// Whether a picture with something new is on its way.
@@ -77,6 +79,7 @@ struct Screen {
   void forget() {
     drawn.reset(), drawing.reset(), outline.reset(), visible_from.reset(), readings.reset();
     marked.reset();
+    to_send = false;
     scene_dirty = true;
   }
 };
@@ -86,7 +89,8 @@ struct Applied {
   std::shared_ptr<const scene::Scene> lamps_of;  ///< scene whose lamps the renderer has
   std::vector<scene::Material> materials;
   std::vector<SphlEdit> sphls;
-  bool bakes_again = false;  ///< it was a bake that was stopped for that
+  std::optional<Quality> quality, live_quality;  ///< of GEN's numbers, and that live light was asked for with
+  bool bakes_again = false;                      ///< it was a bake that was stopped for that
   bool light_stale = false;  ///< places, surfaces or lamps are others than those that the light was found for
   double stale_since = 0;
   /// Scene with whose lamps live light was asked for last, and the light that did not have them.

@@ -286,10 +286,14 @@ InjectedInput ScriptPlayer::next(App& app) {
   }
   if (settling_ && (!app.current() || app.take_exposure() || !app.settled())) {
     // Nobody is there to choose between waiting and a bake of this machine.
-    if (app.farm && app.farm->lost() && app.farm->used && app.baking())
-      throw Error(lines_[at_ - 1].where,
-                  fmt::format("the bake waits for {}, whose broker does not answer", app.farm->endpoint()),
-                  "start it again, or leave out --broker");
+    if (app.farm && app.farm->used && app.baking()) {
+      if (const std::string failure = app.farm->failure(); !failure.empty())
+        throw Error(lines_[at_ - 1].where, failure);
+      if (app.farm->lost())
+        throw Error(lines_[at_ - 1].where,
+                    fmt::format("the bake waits for {}, whose broker does not answer", app.farm->endpoint()),
+                    "start it again, or leave out --broker");
+    }
     return {};
   }
   settling_ = false;

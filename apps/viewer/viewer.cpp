@@ -1,5 +1,6 @@
 #include "viewer.h"
 
+#include <cstdlib>
 #include <filesystem>
 
 #include "app.h"
@@ -41,6 +42,24 @@ class Session {
  private:
   App& app_;
   const Control& control_;
+};
+
+/// Where the display goes away the window system's library ends the process: what is not saved is kept first.
+class KeptAtExit {
+ public:
+  explicit KeptAtExit(App& app) {
+    static const int registered = std::atexit([] {
+      if (app_) app_->keep_at_once();
+    });
+    static_cast<void>(registered);
+    app_ = &app;
+  }
+  ~KeptAtExit() { app_ = nullptr; }
+  KeptAtExit(const KeptAtExit&) = delete;
+  KeptAtExit& operator=(const KeptAtExit&) = delete;
+
+ private:
+  static inline App* app_ = nullptr;
 };
 
 /// Opens what the options name. A scene that cannot be opened ends the session, for it is all that was asked
@@ -102,16 +121,18 @@ void play(App& app, Session& session, const ViewerOptions& options) {
 
 }  // namespace
 
-ViewerReport run_viewer(const ViewerOptions& options, const LoadScene& load, const Control& control) {
+ViewerReport run_viewer(const ViewerOptions& options, const LoadScene& load, const ShowElsewhere& show,
+                        const Control& control) {
   if (!options.export_dir.empty() && options.path.empty())
     throw Error("--export", "needs the path that is to be drawn", "give a camera path file with --path");
   GlfwWindow window("ssphh", options.width, options.height);
-  return run_session(window, options, load, control);
+  return run_session(window, options, load, show, control);
 }
 
 ViewerReport run_session(Window& window, const ViewerOptions& options, const LoadScene& load,
-                         const Control& control) {
-  App app(window, options, load);
+                         const ShowElsewhere& show, const Control& control) {
+  App app(window, options, load, show);
+  const KeptAtExit kept(app);
   Session session(app, control);
   begin(app, session, options);
   const bool batch = !options.screenshot.empty() || !options.export_dir.empty();

@@ -14,6 +14,9 @@
 #include <ssphh/scene/scene.h>
 #include <ssphh/transport/transport_params.h>
 
+#include "model/farm_client.h"
+#include "model/picture_sender.h"
+
 namespace ssphh::viewer {
 
 struct ViewerOptions {
@@ -24,13 +27,16 @@ struct ViewerOptions {
   std::string probes;   ///< a probe file; scene, auto, auto:METRES; off; empty: the scene's SPHLs, if any
   bool force = false;   ///< take a probe file of another scene, with a warning
   bool live = false;    ///< light a file's probes anew, so that they follow lamps and doors
-  int records = transport::usual_records;  ///< surface points that keep light while it follows lamps, at most
+  /// Surface points that keep light while it follows lamps, at most; none given: as the quality has them.
+  std::optional<int> records;
   transport::TransportParams transport = {};  ///< of that light
   int width = 1440, height = 810;
   bool panels = true;
   std::vector<std::pair<std::string, std::string>> settings;  ///< by setting_names()
 
   const farm::FarmOptions* farm = nullptr;  ///< who does GEN and VIZ; null: this process
+  OwnFarm own_farm;                         ///< where this session has started it
+  bool show_truth = false;                  ///< every pass of a truth goes to `show`, too
 
   std::string path;  ///< camera path file: the bookmarks; with `export_dir` also what is drawn
   std::string export_dir;
@@ -60,12 +66,14 @@ struct ViewerReport {
 using LoadScene = std::function<scene::Scene(const std::string& source)>;
 
 /// Opens the window and returns when it is closed or all that the options ask for is done. Throws Error when
-/// there is no display or no OpenGL 4.5, and for anything in the options that cannot be done.
-ViewerReport run_viewer(const ViewerOptions& options, const LoadScene& load, const Control& control);
+/// there is no display or no OpenGL 4.5, and for anything in the options that cannot be done. `show` takes
+/// pictures that the user wants to see elsewhere.
+ViewerReport run_viewer(const ViewerOptions& options, const LoadScene& load, const ShowElsewhere& show,
+                        const Control& control);
 
 class Window;
 /// The same in a window that is there.
 ViewerReport run_session(Window& window, const ViewerOptions& options, const LoadScene& load,
-                         const Control& control);
+                         const ShowElsewhere& show, const Control& control);
 
 }  // namespace ssphh::viewer

@@ -2,12 +2,15 @@
 // piped, output that cannot be written.
 
 #include <algorithm>
+#include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <iostream>
 #include <sstream>
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <ssphh/core/file.h>
@@ -23,6 +26,7 @@
 #include "error_message.h"
 #include "here.h"
 #include "options/scene_options.h"
+#include "places.h"
 #include "temp_dir.h"
 
 namespace ssphh {
@@ -150,6 +154,23 @@ TEST(Piped, CoefficientsAreReadFromStdin) {
   write_file(dir / "a.json", in.str());
   EXPECT_EQ(result, json_here({"sh", "irradiance", dir / "a.json", "--normal", "0", "0", "1"}));
   std::cin.clear();
+}
+
+TEST(Piped, AReaderThatHasGoneEndsTheToolQuietly) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  ::close(ends[0]);
+  const int kept = ::dup(STDOUT_FILENO), errors = ::dup(STDERR_FILENO);
+  const test::TempDir dir;
+  const int err = ::open((dir / "err").c_str(), O_WRONLY | O_CREAT, 0600);
+  ::dup2(ends[1], STDOUT_FILENO), ::dup2(err, STDERR_FILENO);
+  const int status = std::system((test::tool_path() + " methods").c_str());
+  ::dup2(kept, STDOUT_FILENO), ::dup2(errors, STDERR_FILENO);
+  for (const int file : {ends[1], kept, errors, err}) ::close(file);
+  EXPECT_EQ(read_text_file(dir / "err"), "");
+  const bool of_pipe =
+      WIFSIGNALED(status) ? WTERMSIG(status) == SIGPIPE : WEXITSTATUS(status) == 128 + SIGPIPE;
+  EXPECT_TRUE(of_pipe) << status;
 }
 
 TEST(Piped, AResultThatCannotBeWrittenIsAnError) {

@@ -17,7 +17,9 @@
 
 #include "joined.h"
 #include "temp_dir.h"
+#include "tev_listener.h"
 #include "tool_checks.h"
+#include "variable.h"
 #include "xvfb.h"
 
 namespace ssphh {
@@ -202,6 +204,27 @@ TEST_F(View, AnswersTheWindowSystemsMouseAndKeys) {
   EXPECT_NE(a.pixels, b.pixels) << "the drag turned the view";
 }
 
+TEST_F(View, ADisplayThatGoesAwayTakesNoEditsAlong) {
+  if (std::system("command -v xdotool > /dev/null") != 0) GTEST_SKIP() << "xdotool is not installed";
+  const test::Variable state("XDG_STATE_HOME", path("state").c_str());
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(dir_.path());
+  auto screen = std::make_unique<test::Xvfb>();
+  test::ToolProcess viewer(
+      {"view", "builtin:two-rooms", "--size", "480x300", "--probes", "off", "--no-panels"});
+  std::filesystem::current_path(before);
+  const std::string window = "search --sync --onlyvisible --name two-rooms windowfocus ";
+  EXPECT_TRUE(repeat_until(viewer,
+                           window + "key --delay 200 N sleep 0.3 mousemove --window %1 240 150 click 1 sleep "
+                                    "0.5 key --delay 200 F12",
+                           path("two-rooms-01.png")));
+  screen.reset();
+  EXPECT_EQ(viewer.wait().exit_code, 1);
+  const std::filesystem::path kept = path("state") + "/ssphh/autosave";
+  ASSERT_TRUE(std::filesystem::exists(kept));
+  EXPECT_FALSE(std::filesystem::is_empty(kept));
+}
+
 /// Process ids of workers that a process has started.
 std::vector<pid_t> workers_of(pid_t parent) {
   std::vector<pid_t> workers;
@@ -232,10 +255,22 @@ TEST_F(View, AKilledWorkerOfItsFarmCostsARetryAndNoBit) {
   const test::ToolResult result = viewer.wait();
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json::Value run = test::parse_json(result.out);
-  EXPECT_THAT(result.err, HasSubstr("has ended; it is started again"));
+  EXPECT_THAT(result.err, HasSubstr("has ended (signal 9, Killed); it is started again"));
   EXPECT_GE(run["farm"]["retries"].integer(), 1) << result.err;
   run_json(joined(small, {bake("here.sphl")}));
   EXPECT_TRUE(read_file(path("farm.sphl")) == read_file(path("here.sphl")));
+}
+
+TEST_F(View, ShowsItsPictureInTev) {
+  test::TevListener listener;
+  run_json(joined(two_rooms, {"--probes", "off", "--tev", listener.address(), "--script",
+                              script("settle\nkey Shift+F12\nsettle\nset truth-spp 2\nset show wipe\n"
+                                     "settle\nquit\n")}));
+  const test::TevImages& shown = listener.shown();
+  ASSERT_EQ(shown.images.count("two-rooms"), 1u);
+  ASSERT_EQ(shown.images.count("two-rooms path"), 1u);
+  EXPECT_EQ(shown.images.at("two-rooms").width, 160);
+  EXPECT_EQ(shown.images.at("two-rooms path").height, 100);
 }
 
 TEST_F(View, BuildsAccelerationStructuresOnce) {

@@ -1,5 +1,6 @@
 #include "commands/command.h"
 
+#include <cerrno>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@ namespace ssphh::app {
 void Context::result(const json::Value& object, const std::string& text) const {
   const std::string out = json ? json::print(object, 2) : text;
   if (std::fputs(out.c_str(), stdout) < 0 || std::fputc('\n', stdout) == EOF || std::fflush(stdout) != 0) {
+    if (errno == EPIPE) throw ReaderGone();
     throw Error("stdout", "cannot write the result");
   }
 }

@@ -17,6 +17,9 @@
 
 namespace ssphh::app {
 
+/// Whoever read the result has gone, as `head` does: nothing is wrong, and nobody is told.
+struct ReaderGone {};
+
 /// What every command shares.
 struct Context {
   bool json = false;
@@ -30,7 +33,8 @@ struct Context {
   std::function<void()> run;  ///< set by the chosen command while options are parsed
   int exit_code = 0;          ///< of a command that gave a result and still has to report a failure
 
-  /// The command's result: with --json the object alone on stdout, else `text`.
+  /// The command's result: with --json the object alone on stdout, else `text`. Throws Error where it cannot
+  /// be written, ReaderGone where nobody reads it.
   void result(const json::Value& object, const std::string& text) const;
 };
 

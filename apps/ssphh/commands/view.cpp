@@ -8,7 +8,9 @@
 
 #include "commands/command.h"
 #include "model/settings.h"
+#include "options/picture_options.h"
 #include "results/geometry_builds.h"
+#include "results/tev.h"
 
 namespace ssphh::app {
 namespace {
@@ -66,9 +68,22 @@ viewer::ViewerReport run_view(const ViewOptions& o, const Control& control) {
     return load_lit_scene(scene);
   };
   const std::optional<FarmSession> farm = farm_session(o.farm);
-  v.farm = farm ? &farm->options() : nullptr;
+  // Bakes wait where a farm of its own has ended: the window offers to start it again.
+  farm::FarmOptions at;
+  if (farm) {
+    at = farm->options();
+    at.failure = {};
+    v.farm = &at;
+    if (farm::LocalFarm* own = farm->local())
+      v.own_farm = {[own] { return own->failure(); }, [own] { own->restart(); }};
+  }
+  TevViewer tev(o.tev.empty() ? usual_tev : o.tev);
+  v.show_truth = !o.tev.empty();
+  const auto show = [&tev](const std::string& name, const image::Image& picture) {
+    return tev.try_show(name, picture);
+  };
   const GeometryBuilds builds;
-  viewer::ViewerReport report = viewer::run_viewer(v, load, control);
+  viewer::ViewerReport report = viewer::run_viewer(v, load, show, control);
   report.geometry_builds = builds.count();
   return report;
 }
@@ -99,6 +114,11 @@ void add_view_command(Command app, Context& context) {
   command.option("--camera", o.viewer.camera, "Camera by name; default: the scene's first");
   command.option("--size", o.size, "Of the window, WIDTHxHEIGHT");
   command.flag("--no-panels", o.no_panels, "The picture alone (Tab brings the panels)");
+  add_tev_option(
+      command, o.tev,
+      fmt::format("Shift+F12 shows the picture in the viewer tev that listens there, and each pass "
+                  "of a ground truth is shown. Default: {}, for Shift+F12 alone",
+                  usual_tev));
 
   const Command probes = command.under("Probes");
   probes.option("--probes", o.viewer.probes,
@@ -109,7 +129,7 @@ void add_view_command(Command app, Context& context) {
   probes
       .option("--records", o.viewer.records,
               "Surface points that keep light while it follows lamps and doors, at most: fewer start sooner; "
-              "0: none")
+              "0: none. Default: as --quality has them")
       .range(0, 1 << 16);
   probes.flag("--force", o.viewer.force, "Take a probe file of another scene, with a warning");
   add_setting_options(command, o);

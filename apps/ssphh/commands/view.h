@@ -18,7 +18,9 @@ struct ViewOptions {
   /// The viewer's own. Source, time, load, width, height, panels, farm are not read: they are those of the
   /// others.
   viewer::ViewerOptions viewer;
-  FarmChoice farm;                  ///< that does GEN and VIZ, if there is any
+  std::string tev;  ///< "HOST:PORT" of a tev that shows pictures, each pass of a truth too; empty:
+                    ///< pictures alone, where tev listens by itself
+  FarmChoice farm;  ///< that does GEN and VIZ, if there is any
   std::vector<std::string> values;  ///< of viewer::setting_names(), in its order; empty ones: as they are
   std::string size = "1440x810";    ///< of the window, as "WIDTHxHEIGHT": 64 to 16384 pixels each
   bool no_panels = false;           ///< the picture alone

@@ -10,6 +10,7 @@
 #include <ssphh/core/log.h>
 #include <ssphh/core/parallel.h>
 #include <ssphh/farm/disk_cache.h>
+#include <ssphh/farm/local_farm.h>
 
 #include "commands/command.h"
 #include "commands/cycles.h"
@@ -41,16 +42,13 @@ farm::MakeSource cycles_in(const std::filesystem::path& cache) {
       };
 }
 
-/// For schedulers: this worker would fail again in the same way.
-constexpr int never_retry = 42;
-
 void work(Context& context, WorkerSettings& settings) {
   try {
     run_and_print(context, settings, run_worker);
   } catch (const Error& e) {
     log(LogLevel::error, e.what());
     if (context.json) context.result({{"error", e.what()}}, "");
-    context.exit_code = never_retry;
+    context.exit_code = farm::never_retry;
   }
 }
 

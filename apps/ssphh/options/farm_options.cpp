@@ -54,6 +54,7 @@ FarmSession::FarmSession(const FarmChoice& choice) {
     local.cache = farm::default_cache_dir("scenes");
     local_ = std::make_unique<farm::LocalFarm>(local);
     options_.broker = local_->address();
+    options_.failure = [farm = local_.get()] { return farm->failure(); };
   } else {
     options_.broker = broker_address(choice.broker);
   }

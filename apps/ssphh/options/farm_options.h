@@ -52,6 +52,8 @@ class FarmSession {
   /// Starts the local farm if one was asked for.
   explicit FarmSession(const FarmChoice& choice);
   const farm::FarmOptions& options() const { return options_; }
+  /// The one that was started; null: it is another's.
+  farm::LocalFarm* local() const { return local_.get(); }
 
  private:
   std::unique_ptr<farm::LocalFarm> local_;

@@ -47,7 +47,7 @@ void add_exposure_option(Command command, std::optional<float>& exposure, const 
 Option add_tev_option(Command command, std::string& address, const std::string& help) {
   const auto problem = [](const std::string& text) {
     return tev_address(text) ? std::string()
-                             : fmt::format("{} is no HOST:PORT; tev itself listens at 127.0.0.1:14158", text);
+                             : fmt::format("{} is no HOST:PORT; tev itself listens at {}", text, usual_tev);
   };
   return command.option("--tev", address, help).check(problem, "HOST:PORT");
 }

@@ -151,7 +151,8 @@ std::optional<TevAddress> tev_address(const std::string& text) {
 TevViewer::TevViewer(const std::string& address) {
   if (address.empty()) return;
   const auto found = tev_address(address);
-  if (!found) throw Error("--tev " + address, "is no HOST:PORT", "tev itself listens at 127.0.0.1:14158");
+  if (!found)
+    throw Error("--tev " + address, "is no HOST:PORT", fmt::format("tev itself listens at {}", usual_tev));
   address_ = *found;
 }
 
@@ -166,16 +167,20 @@ void TevViewer::disconnect() {
 }
 
 void TevViewer::show(const std::string& name, const image::Image& picture) {
-  if (!*this || picture.empty()) return;
+  const std::string problem = try_show(name, picture);
+  if (!problem.empty() && !warned_) log_warning("{}", problem);
+  warned_ = !problem.empty();
+}
+
+std::string TevViewer::try_show(const std::string& name, const image::Image& picture) {
+  if (!*this || picture.empty()) return {};
   try {
     send(name, picture);
-    warned_ = false;
+    return {};
   } catch (const Error& e) {
     disconnect();
-    if (!warned_)
-      log_warning("--tev {}:{}: {} is not shown: {}; is tev there, and its --host the same?", address_.host,
-                  address_.port, name, e.problem());
-    warned_ = true;
+    return fmt::format("--tev {}:{}: {} is not shown: {}; is tev there, and its --host the same?",
+                       address_.host, address_.port, name, e.problem());
   }
 }
 

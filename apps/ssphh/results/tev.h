@@ -16,6 +16,9 @@ std::vector<std::byte> tev_create(const std::string& name, int width, int height
 /// picture is sent grey, without alpha.
 std::vector<std::byte> tev_update(const std::string& name, const image::Image& picture, int first, int rows);
 
+/// Where tev listens unless its --host says otherwise.
+inline constexpr const char* usual_tev = "127.0.0.1:14158";
+
 struct TevAddress {
   std::string host, port;
 };
@@ -36,6 +39,8 @@ class TevViewer {
   /// Shows linear radiance under that name, in place of what was shown under it before. Connects where there
   /// is no connection, waiting two seconds at most, and warns once until a picture has come through again.
   void show(const std::string& name, const image::Image& picture);
+  /// The same without a warning: why it is not shown, or an empty text.
+  std::string try_show(const std::string& name, const image::Image& picture);
 
  private:
   void send(const std::string& name, const image::Image& picture);

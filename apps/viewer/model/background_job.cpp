@@ -13,16 +13,21 @@ class BackgroundJob::Meter final : public Progress {
     const std::lock_guard lock(mutex_);
     stage_ = stage;
     total_ = total;
+    over_ = false;
     begun_ = std::chrono::steady_clock::now();
     done_.store(0, std::memory_order_relaxed);
   }
   void advance(std::uint64_t count) override { done_.fetch_add(count, std::memory_order_relaxed); }
-  void end() override {}
+  void end() override {
+    const std::lock_guard lock(mutex_);
+    over_ = true;
+  }
 
   void read(JobStatus& status) const {
     const std::lock_guard lock(mutex_);
     status.stage = stage_;
-    if (total_ == 0) return;
+    // What follows may take long without telling how far it is: the share of what is over says nothing of it.
+    if (total_ == 0 || (over_ && status.running)) return;
     status.fraction = std::min(
         1.0, static_cast<double>(done_.load(std::memory_order_relaxed)) / static_cast<double>(total_));
     const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - begun_;
@@ -33,6 +38,7 @@ class BackgroundJob::Meter final : public Progress {
   mutable std::mutex mutex_;
   std::string stage_;
   std::uint64_t total_ = 0;
+  bool over_ = false;
   std::chrono::steady_clock::time_point begun_;
   std::atomic<std::uint64_t> done_{0};
 };

@@ -93,7 +93,8 @@ float default_ball_size(const probes::ProbeSet& set) {
   std::vector<vec3> positions;
   for (const probes::Probe& probe : set.probes) positions.push_back(probe.position);
   if (positions.size() < 2) return 0.12f;
-  return std::clamp(probes::median_spacing(positions) / 6, 1e-3f, 0.12f);
+  const float spacing = probes::median_spacing(positions);
+  return std::min(spacing / 6, std::max(0.12f, spacing / 40));
 }
 
 }  // namespace ssphh::viewer

@@ -9,6 +9,7 @@
 #include <ssphh/scene_io/gltf_export.h>
 #include <ssphh/scene_io/load.h>
 
+#include "lengths.h"
 #include "overlay_file.h"
 
 namespace ssphh::viewer {
@@ -57,7 +58,7 @@ View start_view(const Document& document, const std::string& camera) {
       *document.opened, of_scene ? document.opened->cameras[named->source].name : "", document.time);
   const vec3 eye(pose.world[3]);
   const float distance = document.bounds.empty() ? 3 : glm::distance(eye, document.bounds.center());
-  return view_of(pose, std::max(distance, 0.1f));
+  return view_of(pose, std::max(distance, lengths_of(document.bounds).least));
 }
 
 scene::Scene scene_to_save(const Document& document) {

@@ -2,12 +2,14 @@
 
 #include <chrono>
 #include <thread>
+#include <utility>
 
 #include <ssphh/core/error.h>
 
 namespace ssphh::viewer {
 
-FarmClient::FarmClient(const farm::FarmOptions& options) : options_(options) {
+FarmClient::FarmClient(const farm::FarmOptions& options, OwnFarm own)
+    : options_(options), own_(std::move(own)) {
   auto watch = std::make_shared<farm::StatusWatch>(options.broker);
   watch_.start("farm", [this, watch](const Control& control) -> BackgroundJob::Finish {
     while (true) {

@@ -69,4 +69,18 @@ View orbited_about(const View& view, const vec3& point, float yaw, float pitch) 
   return out;
 }
 
+View orbited_within(const View& view, const vec3& point, float yaw, float pitch,
+                    const rays::PosedWorld& world) {
+  constexpr float step = 0.95f, room = 0.03f, least = 0.05f;
+  View out = orbited_about(view, point, yaw, pitch);
+  if (view.orthographic) return out;
+  const vec3 eye = out.eye, away = eye - point;
+  const float focus = out.focus;
+  for (float share = 1; share > least; share *= step) {
+    if (share < 1) out.eye = point + share * away, out.focus = share * focus;
+    if (world.visible(view.eye, out.eye + room * share * away)) return out;
+  }
+  return view;
+}
+
 }  // namespace ssphh::viewer

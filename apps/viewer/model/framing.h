@@ -17,5 +17,9 @@ View framed_within(const View& view, const scene::Bounds& bounds, float aspect,
 /// The same turn as orbited() has, about another point, which stays where it is in the picture and becomes
 /// the focus' distance. Unchanged for a point that is not before the eye.
 View orbited_about(const View& view, const vec3& point, float yaw, float pitch);
+/// The same, but where the eye would pass a surface it comes nearer to the point, which stays where it is in
+/// the picture, until it passes none. Unchanged where there is no such place. A parallel view passes all.
+View orbited_within(const View& view, const vec3& point, float yaw, float pitch,
+                    const rays::PosedWorld& world);
 
 }  // namespace ssphh::viewer

@@ -26,7 +26,8 @@ Preferences read_preferences(const std::filesystem::path& file) {
   const json::Value value = json::parse(read_text_file(file, 1 << 20), name);
   const json::Cursor in(value, name);
   in.expect_format(preferences_format, preferences_version);
-  in.members({"format", "version"}, {"recent", "side_width", "histogram", "waveform", "false_color"});
+  in.members({"format", "version"},
+             {"recent", "side_width", "histogram", "waveform", "false_color", "quality"});
   if (in.has("recent")) {
     for (const json::Cursor& scene : json::elements(in["recent"]))
       preferences.recent.push_back(scene.text(4096));
@@ -36,6 +37,7 @@ Preferences read_preferences(const std::filesystem::path& file) {
   look.histogram = in.boolean_or("histogram", false);
   look.waveform = in.boolean_or("waveform", false);
   look.false_color = in.boolean_or("false_color", false);
+  if (in.has("quality")) look.quality = in["quality"].named<Quality>();
   return preferences;
 }
 
@@ -48,7 +50,8 @@ void write_preferences(const Preferences& preferences, const std::filesystem::pa
                            {"side_width", preferences.look.side_width},
                            {"histogram", preferences.look.histogram},
                            {"waveform", preferences.look.waveform},
-                           {"false_color", preferences.look.false_color}};
+                           {"false_color", preferences.look.false_color},
+                           {"quality", name_of(preferences.look.quality)}};
   write_file(file, json::print(out, 2) + "\n");
 }
 

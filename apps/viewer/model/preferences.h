@@ -5,12 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "quality.h"
+
 namespace ssphh::viewer {
 
 /// How the window was left.
 struct WindowLook {
   float side_width = 0;  ///< of the panels, in heights of the text; 0: as suits the window
   bool histogram = false, waveform = false, false_color = false;
+  Quality quality = Quality::window;  ///< of light that the window finds
 
   friend bool operator==(const WindowLook&, const WindowLook&) = default;
 };

@@ -164,6 +164,11 @@ const std::vector<SettingName>& setting_names() {
       number("truth-depth", "Ground truth", "Scattering events of a path", 0, 1000, &Settings::truth_depth),
       number("truth-spp", "Ground truth", "Samples per pixel, one a pass", 1, 1000000,
              &Settings::truth_passes),
+      choice(
+          "quality", "Probes",
+          "How much the window spends on the probes' light, live and by GEN and VIZ: window (soon there), or "
+          "draft, good, best as bake --quality",
+          &Settings::quality),
       choice("lookup", "Probes",
              "irradiance: blend of visible SPHLs; light: nearest visible SPHL, as the paper",
              &Settings::lookup),

@@ -13,6 +13,8 @@
 #include <ssphh/probes/lookup.h>
 #include <ssphh/rays/radiance_source.h>
 
+#include "quality.h"
+
 namespace ssphh::viewer {
 
 /// What fills the picture.
@@ -85,6 +87,7 @@ struct Settings {
   int indirect_scale = 3;  ///< of the real-time picture where no truth is beside it
 
   // Probes' light
+  Quality quality = Quality::window;  ///< of light that the window finds
   probes::LookupMethod lookup = probes::LookupMethod::irradiance;
   probes::WeightMethod weights = probes::WeightMethod::surface;  ///< of lookup `irradiance`
   probes::ProbeLayer layer = probes::ProbeLayer::sum;            ///< self where there is no hierarchy
@@ -95,7 +98,7 @@ struct Settings {
   // Probes on the screen
   bool balls = false, lobes = false, graph = false, names = false;
   Ball ball = Ball::radiance;
-  float ball_size = 0;  ///< radius [m]; 0: a sixth of the probes' median distance, at most 0.12
+  float ball_size = 0;  ///< radius [m]; 0: as default_ball_size() has it
 
   // The scene's time
   bool play = false;

@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include "app.h"
+#include "model/lengths.h"
 #include "panels.h"
 #include "widgets.h"
 
@@ -63,11 +64,16 @@ void draw_cameras(App& app) {
 void draw_view(App& app) {
   heading("View");
   View& view = app.view;
+  const Lengths lengths = lengths_of(app.document.bounds);
   row("eye");
-  if (ImGui::DragFloat3("##eye", glm::value_ptr(view.eye), 0.02f, 0, 0, "%.2f")) app.redraw();
+  if (ImGui::DragFloat3("##eye", glm::value_ptr(view.eye), 2 * lengths.step, 0, 0,
+                        length_format(lengths.decimals)))
+    app.redraw();
   if (view.orthographic) {
     row("height [m]");
-    if (ImGui::DragFloat("##height", &view.yheight, 0.02f, 0.01f, 1e4f, "%.2f")) app.redraw();
+    if (ImGui::DragFloat("##height", &view.yheight, 2 * lengths.step, lengths.step, 1e6f * lengths.step,
+                         length_format(lengths.decimals)))
+      app.redraw();
   } else {
     row("field of view");
     float degrees = glm::degrees(view.yfov);
@@ -75,7 +81,8 @@ void draw_view(App& app) {
       view.yfov = glm::radians(degrees), app.redraw();
   }
   row("fly [m/s]");
-  ImGui::DragFloat("##speed", &app.fly_speed, 0.05f, 0.05f, 500, "%.2f");
+  ImGui::DragFloat("##speed", &app.fly_speed, 5 * lengths.step, 5 * lengths.step, 5e4f * lengths.step,
+                   length_format(lengths.decimals));
   if (wide_button("Frame everything (F)")) app.selection = {}, app.frame_selection();
 }
 

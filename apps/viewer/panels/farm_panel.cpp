@@ -76,7 +76,13 @@ void draw_farm_panel(App& app) {
   FarmClient& farm = *app.farm;
   heading("Broker");
   ImGui::TextWrapped("%s", farm.endpoint().c_str());
-  if (farm.lost()) note("It does not answer. Bakes that go to it wait until it does.");
+  const std::string failure = farm.failure();
+  if (!failure.empty()) {
+    note(failure + ". Bakes that go to it wait until it is started again.");
+    if (wide_button("Start it again")) attempt(app, [&] { app.restart_farm(); });
+  } else if (farm.lost()) {
+    note("It does not answer. Bakes that go to it wait until it does.");
+  }
   row("at the farm");
   ImGui::Checkbox("##used", &farm.used);
   tip("Bakes that begin from now on, GEN and VIZ, go to its workers; else this machine does them.");

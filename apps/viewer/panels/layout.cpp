@@ -114,10 +114,11 @@ void draw_panels(App& app) {
   app.viewport = {left, top, std::max(width - left, 1.0f), std::max(height - top - bottom, 1.0f)};
   if (app.panels) draw_time_bar(app);
   if (!app.scene_open()) draw_welcome(app);
-  const float above = draw_offer(app), below = draw_message(app);
+  // The keys are not read through something else.
+  const float above = app.help ? 0 : draw_offer(app), below = draw_message(app);
   const Rect2& r = app.viewport;
-  draw_readings(app, {r.x, r.y + above, r.width, r.height - above - below});
-  draw_inspector(app);
+  const Rect2 room{r.x, r.y + above, r.width, r.height - above - below};
+  if (!app.help) draw_readings(app, room), draw_inspector(app, room);
   draw_help(app);
   draw_file_dialog(app);
   draw_question(app);

@@ -60,6 +60,10 @@ void draw_file_menu(App& app) {
   tip("a small file that names the scene and holds lamps, cameras, SPHLs and what else was changed in it");
   if (ImGui::MenuItem("Save probes as…", nullptr, false, open && !app.light.empty()))
     app.ask_for_file(FileDialog::For::probes);
+  if (ImGui::MenuItem("Show the picture in tev", "Shift+F12", false, open && app.elsewhere))
+    attempt(app, [&] { app.show_elsewhere(); });
+  tip("as linear radiance, and the truth where one is traced, in the viewer of HDR pictures tev, which must "
+      "be running");
   if (ImGui::MenuItem("Save times as times.csv", nullptr, false, open))
     attempt(app, [&] { app.save_stats("times.csv"); });
   ImGui::Separator();

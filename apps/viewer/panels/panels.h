@@ -34,8 +34,9 @@ void draw_help(App& app);
 /// Over the picture: the histogram, the waveform, and the legend of false colours,
 /// in the part of the picture that nothing else covers.
 void draw_readings(App& app, const Rect2& room);
-/// What stands under the mouse, or at the pinned point, and what lights it.
-void draw_inspector(App& app);
+/// What stands under the mouse, or at the pinned point, and what lights it, in that part, too; over the
+/// legend where there is no room beside it.
+void draw_inspector(App& app, const Rect2& room);
 /// Lets the user choose the file of App::dialog, and opens or writes it.
 void draw_file_dialog(App& app);
 /// Asks App::question and takes the answer, by mouse or key.

@@ -8,12 +8,34 @@
 #include <ssphh/transport/network.h>
 
 #include "app.h"
+#include "model/lengths.h"
 #include "overlay.h"
 #include "panels.h"
 #include "widgets.h"
 
 namespace ssphh::viewer {
 namespace {
+
+/// Qualities with what each costs.
+void draw_quality(App& app) {
+  row("quality");
+  const std::string now(name_of(app.settings.quality));
+  const bool open = ImGui::BeginCombo("##quality", (now + (app.quality_by_hand() ? ", by hand" : "")).c_str(),
+                                      ImGuiComboFlags_HeightLargest);
+  if (!open)
+    tip("How much is spent on the light that the window finds: window is soon there, the others are those of "
+        "ssphh bake.");
+  const LightKnown known = app.light_known();
+  if (!open) return note(cost_text(app.settings.quality, known));
+  for (const auto& [quality, name] : enum_table(Quality{})) {
+    ImGui::PushID(static_cast<int>(quality));
+    if (ImGui::Selectable(std::string(name).c_str(), quality == app.settings.quality))
+      app.use_quality(quality);
+    note(cost_text(quality, known));
+    ImGui::PopID();
+  }
+  ImGui::EndCombo();
+}
 
 void draw_source(App& app) {
   heading("Light of the probes");
@@ -30,9 +52,12 @@ void draw_source(App& app) {
     note(fmt::format("{} probes, fixed ({}): they follow light groups only.", app.light.set().probes.size(),
                      app.light.origin()));
   }
+  draw_quality(app);
   static float spacing = 0;
   row("spacing [m]");
-  ImGui::DragFloat("##spacing", &spacing, 0.01f, 0, 100, spacing > 0 ? "%.2f" : "automatic");
+  const Lengths lengths = lengths_of(app.document.bounds);
+  ImGui::DragFloat("##spacing", &spacing, lengths.step, 0, 1e4f * lengths.step,
+                   spacing > 0 ? length_format(lengths.decimals) : "automatic");
   tip("of placed probes; 0: some 100 to 200 of them");
   if (wide_button("Place probes")) attempt(app, [&] { app.place_probes(spacing); });
   if (!app.document.edits().sphls.empty() && !app.light.live() && wide_button("Light them live"))
@@ -44,7 +69,7 @@ void draw_bake(App& app) {
   bake::BakeParams& p = app.bake_params;
   row("samples");
   ImGui::SliderInt("##spp", &p.path.spp, 1, 256);
-  tip("paths per texel of a probe's cube map");
+  tip("Paths per texel of a probe's cube map; the quality sets them, too.");
   row("bounces");
   ImGui::SliderInt("##depth", &p.path.max_depth, 1, 32);
   row("cube face");
@@ -82,7 +107,9 @@ void draw_display(App& app) {
   heading("On the screen");
   setting_widget(app, "balls (P)", "balls");
   setting_widget(app, "coloured by", "ball");
-  setting_slider(app, "radius [m]", "ball-size", 0, 0.5f, app.settings.ball_size > 0 ? "%.2f" : "automatic");
+  const Lengths lengths = lengths_of(app.document.bounds);
+  setting_slider(app, "radius [m]", "ball-size", 0, 50 * lengths.step,
+                 app.settings.ball_size > 0 ? length_format(lengths.decimals) : "automatic");
   setting_widget(app, "lobes (L)", "lobes");
   setting_widget(app, "graph (G)", "graph");
   setting_widget(app, "names", "names");
@@ -157,14 +184,18 @@ void draw_selected(App& app) {
   const auto i = static_cast<std::size_t>(app.selection.index);
   const SphlEdit& sphl = app.document.edits().sphls[i];
   heading(sphl.name.c_str());
+  const Lengths lengths = lengths_of(app.document.bounds);
   row("position");
   vec3 position = *app.selected_position();
-  if (ImGui::DragFloat3("##position", glm::value_ptr(position), 0.01f, 0, 0, "%.2f"))
+  if (ImGui::DragFloat3("##position", glm::value_ptr(position), lengths.step, 0, 0,
+                        length_format(lengths.decimals)))
     app.move_selected(position);
   seal_after_edit(app);
   row("VIZ radius");
   float radius = sphl.radius;
-  if (ImGui::DragFloat("##radius", &radius, 0.005f, 0.001f, 10, "%.3f m"))
+  const std::string metres = std::string(length_format(lengths.decimals + 1)) + " m";
+  if (ImGui::DragFloat("##radius", &radius, 0.5f * lengths.step, 0.1f * lengths.step, 1e3f * lengths.step,
+                       metres.c_str()))
     app.document.edit("radius of " + sphl.name, [&](Edits& e) { e.sphls[i].radius = radius; });
   seal_after_edit(app);
   if (ImGui::Button("Delete")) return app.delete_selection();

@@ -108,7 +108,8 @@ class AppStage : public testing::Test {
     app_.reset();
     window_.reset();
     window_.emplace(width, height, scale);
-    app_.emplace(*window_, options_, [this](const std::string& source) { return load_(source); });
+    app_.emplace(
+        *window_, options_, [this](const std::string& source) { return load_(source); }, show_);
     return *app_;
   }
   App& app() { return *app_; }
@@ -165,7 +166,7 @@ class AppStage : public testing::Test {
     const auto surface =
         pick_surface(*app_->picking(), app_->document.time, pixel_ray(before, point, r.aspect()));
     const vec2 turn = -0.005f * (to - from);
-    return surface ? orbited_about(before, surface->position, turn.x, turn.y)
+    return surface ? orbited_within(before, surface->position, turn.x, turn.y, posed())
                    : orbited(before, turn.x, turn.y);
   }
   rays::PosedWorld posed() const { return {*app_->picking(), app_->document.time}; }
@@ -174,6 +175,7 @@ class AppStage : public testing::Test {
   std::filesystem::path before_ = std::filesystem::current_path();
   ViewerOptions options_;
   LoadScene load_;
+  ShowElsewhere show_;
   std::optional<StillWindow> window_;
   std::optional<App> app_;
   std::vector<unsigned char> visible_;

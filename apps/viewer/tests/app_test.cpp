@@ -189,7 +189,7 @@ TEST_F(AppTest, ADocumentIsTakenInPlaceOfTheOneBefore) {
     for (vec3& p : mesh.positions) p *= 1e-3f;
   for (scene::Node& node : tiny.nodes) node.local.translation *= 1e-3f;
   app().take_document(make_document("tiny", tiny, 0));
-  EXPECT_FLOAT_EQ(app().fly_speed, 0.2f);
+  EXPECT_FLOAT_EQ(app().fly_speed, 0.25f * app().document.bounds.radius()) << "as in a room";
 }
 
 TEST_F(AppTest, TimesAreSavedWithWhatTheyAreOf) {
@@ -252,6 +252,11 @@ TEST_F(AppTest, OnlyWhatHasAPlaceMovesAndOnlySphlsAreDeleted) {
   app().redo();
   EXPECT_EQ(app().selection, (Selection{Kind::light, 0}));
   EXPECT_EQ(app().message, "done again: move doorway");
+}
+
+TEST_F(AppTest, FilesOfABuiltinSceneWithParametersHaveNamesThatEverySystemTakes) {
+  app().take_document(make_document("builtin:random?seed=7&kind=hall", scene::make_builtin("cornell"), 0));
+  EXPECT_EQ(app().free_file(".png"), "random-seed-7-kind-hall-01.png");
 }
 
 TEST_F(AppTest, ASceneIsSavedOverItsOwnFileAndNeverOverTheOneThatWasOpened) {

@@ -84,7 +84,7 @@ TEST(Balls, AreNeverDarkerThanBlack) {
   EXPECT_EQ(out, std::vector<vec3>(6, vec3(0))) << "a probe without light";
 }
 
-TEST(Balls, HaveASixthOfTheProbesDistanceAtMostTwelveCentimetres) {
+TEST(Balls, HaveASixthOfTheProbesDistanceAtMostTwelveCentimetresOrAFortieth) {
   const auto size = [](float spacing, int count) {
     probes::ProbeSet set;
     for (int i = 0; i < count; ++i)
@@ -94,7 +94,8 @@ TEST(Balls, HaveASixthOfTheProbesDistanceAtMostTwelveCentimetres) {
   EXPECT_FLOAT_EQ(size(0.3f, 4), 0.05f);
   EXPECT_FLOAT_EQ(size(0.3f, 2), 0.05f);
   EXPECT_FLOAT_EQ(size(3, 4), 0.12f);
-  EXPECT_FLOAT_EQ(size(0.001f, 4), 0.001f);
+  EXPECT_FLOAT_EQ(size(0.0006f, 4), 0.0001f) << "of a scene as large as a coin";
+  EXPECT_FLOAT_EQ(size(800, 4), 20) << "in millimetres taken for metres";
   EXPECT_FLOAT_EQ(size(0.3f, 1), 0.12f);
 }
 

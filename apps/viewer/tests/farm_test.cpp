@@ -123,6 +123,46 @@ TEST_F(FarmBakes, GoOnHereWhereTheBrokerIsLost) {
   EXPECT_FALSE(app().farm->used);
 }
 
+/// Its own farm, of which a test says what has become of it.
+class OwnFarmBakes : public FarmBakes {
+ protected:
+  OwnFarmBakes() {
+    options_.own_farm = {[this] { return failure_; }, [this] { failure_.clear(), ++restarts_; }};
+    start(1000, 900);
+    app().take_document(document("two-rooms"));
+  }
+  std::string failure_;
+  int restarts_ = 0;
+};
+
+TEST_F(OwnFarmBakes, AreOfferedANewStartWhereTheBrokerHasEnded) {
+  open("Farm");
+  EXPECT_FALSE(shows("Start it again"));
+  app().start_gen(false);
+  failure_ = "the local broker has ended (signal 9, Killed)";
+  app().take_farm_news();
+  EXPECT_TRUE(app().message_is_error);
+  EXPECT_THAT(app().message, HasSubstr(failure_ + ". \"Start it again\" in the panel Farm"));
+  app().say("something else");
+  app().take_farm_news();
+  EXPECT_EQ(app().message, "something else") << "told once";
+  open("Farm");
+  EXPECT_TRUE(shows(failure_));
+  click_text("Start it again");
+  EXPECT_EQ(restarts_, 1);
+  EXPECT_TRUE(app().baking()) << "it goes on";
+  open("Farm");
+  EXPECT_FALSE(shows("Start it again"));
+  app().job.cancel();
+}
+
+TEST_F(OwnFarmBakes, EndAScriptWithWhatHasBecomeOfTheFarm) {
+  ScriptPlayer player(parse_script("gen\nsettle", "script"));
+  for (int i = 0; i < 3; ++i) player.next(app());
+  failure_ = "no worker is left: local worker 0 has ended (exit code 42)";
+  EXPECT_EQ(test::message_of([&] { player.next(app()); }), "script: line 2: " + failure_);
+}
+
 TEST_F(FarmBakes, EndAScriptThatWaitsForThemWhereTheBrokerIsLost) {
   ASSERT_TRUE(turns_until([&] { return app().farm->figures().has_value(); }));
   ScriptPlayer player(parse_script("gen\nsettle", "script"));

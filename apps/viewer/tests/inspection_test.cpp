@@ -11,6 +11,7 @@
 #include <ssphh/scene/primitives.h>
 
 #include "gl_stage.h"
+#include "model/lengths.h"
 #include "model/objects.h"
 #include "panel_stage.h"
 
@@ -144,8 +145,9 @@ TEST_F(Inspector, FollowsTheMouseUntilAClickPinsIt) {
   shows_all("{:.4g}", now.light.irradiance);
   shows_all("{:.4g}", now.surface->albedo);
   shows_all("{:.3f}", now.surface->normal);
-  shows_all("{:.3f}", now.surface->position);
-  EXPECT_TRUE(shows(fmt::format("{:.3f}", now.surface->distance)));
+  const float away = now.surface->distance;
+  for (int c = 0; c < 3; ++c) EXPECT_TRUE(shows(length_text(now.surface->position[c], away)));
+  EXPECT_TRUE(shows(length_text(away, away)));
   EXPECT_TRUE(shows("wall"));
   ASSERT_GE(now.light.shares.size(), 2u);
   for (const LightShare& share :

@@ -1,6 +1,7 @@
 // Every word of the window is whole, on small screens and on dense ones.
 
 #include <algorithm>
+#include <map>
 
 #include <gmock/gmock.h>
 
@@ -124,6 +125,75 @@ TEST_F(PanelsFit, HistogramWaveformAndLegend) {
       if (!thing.text.starts_with("red, green")) continue;
       EXPECT_GE(thing.from.y, app().viewport.y) << where_;
     }
+  }
+}
+
+/// Grounds of the windows of these names, as drawn now.
+class OverThePicture : public PanelsFit {
+ protected:
+  std::map<std::string, Rect2> grounds() {
+    std::map<std::string, Rect2> grounds;
+    const ImDrawData& data = *ImGui::GetDrawData();
+    for (int i = 0; i < data.CmdListsCount; ++i) {
+      // The first thing that a window draws is its ground.
+      const DrawnThing ground = drawn_things(*data.CmdLists[i]).front();
+      grounds[data.CmdLists[i]->_OwnerName] = {ground.from.x, ground.from.y, ground.to.x - ground.from.x,
+                                               ground.to.y - ground.from.y};
+    }
+    return grounds;
+  }
+};
+
+TEST_F(OverThePicture, ValuesStandBelowTheOfferAndNothingShinesThroughThem) {
+  for (const Screen& screen : screens) {
+    open_on(screen);
+    app().light.clear();
+    app().inspecting = true;
+    app().inspection.emplace().radiance = vec3(0.008926f, 0.007249f, 0.02231f);
+    app().inspection->surface.emplace().object = "block";
+    app().inspection->surface->distance = 1.7f;
+    const Rect2 v = app().viewport;
+    for (const float x : {0.2f, 0.8f}) {
+      for (int i = 0; i < 5; ++i) mouse(v.x + x * v.width, v.y + 0.9f * v.height);
+      const auto drawn = grounds();
+      ASSERT_TRUE(drawn.contains("offer") && drawn.contains("inspector")) << where_;
+      const Rect2 offer = drawn.at("offer"), values = drawn.at("inspector");
+      EXPECT_GE(values.y, offer.y + offer.height) << where_;
+      EXPECT_GE(values.x, 0) << where_;
+      EXPECT_LE(values.x + values.width, static_cast<float>(screen.width)) << where_;
+      EXPECT_LE(values.y + values.height, static_cast<float>(screen.height)) << where_;
+      expect_whole("values");
+    }
+  }
+}
+
+TEST_F(OverThePicture, ValuesEndWithTheWindowHoweverManyProbesLightThePoint) {
+  for (const Screen& screen : screens) {
+    open_on(screen);
+    app().settings.weights = probes::WeightMethod::distance;
+    app().inspecting = true;
+    app().view = look_at({0.5f, 2, 17}, {0, 1, 0}, 1);
+    rest();
+    const Rect2 v = app().viewport;
+    for (int i = 0; i < 5; ++i) mouse(v.x + 0.5f * v.width, v.y + 0.5f * v.height);
+    ASSERT_TRUE(app().inspection && app().inspection->light.shares.size() > 1) << where_;
+    const Rect2 values = grounds().at("inspector");
+    EXPECT_LE(values.y + values.height, static_cast<float>(screen.height)) << where_;
+    expect_whole("values");
+  }
+}
+
+TEST_F(OverThePicture, NothingElseStandsThereWhileTheKeysAreListed) {
+  for (const Screen& screen : screens) {
+    open_on(screen);
+    app().light.clear();
+    app().settings.histogram = true, app().histogram.emplace();
+    for (int i = 0; i < 3; ++i) rest();
+    EXPECT_TRUE(grounds().contains("offer")) << where_;
+    app().help = true;
+    for (int i = 0; i < 3; ++i) rest();
+    for (const char* name : {"offer", "plots"}) EXPECT_FALSE(grounds().contains(name)) << where_ << name;
+    EXPECT_TRUE(grounds().contains("help")) << where_;
   }
 }
 

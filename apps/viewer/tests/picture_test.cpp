@@ -46,9 +46,9 @@ TEST(PictureSettings, EachDebugViewIsTheRenderersView) {
 }
 
 TEST(PictureSettings, ThoseOfTheScreenAndTheTruthLeaveThePictureAsItIs) {
-  const std::set<std::string> others = {"scale",       "show",      "wipe",     "block",       "against",
-                                        "truth-depth", "truth-spp", "graph",    "names",       "play",
-                                        "speed",       "histogram", "waveform", "false-color", "draw"};
+  const std::set<std::string> others = {
+      "scale", "show", "wipe",  "block",     "against",  "truth-depth", "truth-spp", "graph",
+      "names", "play", "speed", "histogram", "waveform", "false-color", "draw",      "quality"};
   for (const SettingName& setting : setting_names()) {
     Settings changed;
     const std::string now = setting.get(changed);

@@ -101,18 +101,22 @@ TEST(BackgroundJob, TellsWhatItIsAt) {
   EXPECT_FALSE(job.running());
   EXPECT_TRUE(job.idle());
   std::atomic<int> at = 0;
-  std::atomic<bool> go_on = false, end = false;
+  std::atomic<bool> go_on = false, end = false, out = false;
   job.start("baking", [&](const Control& control) -> BackgroundJob::Finish {
     {
       ProgressStage first(control, "first", 0, "things");
       at = 1;
       while (!go_on) std::this_thread::sleep_for(1ms);
     }
-    ProgressStage second(control, "second", 8, "things");
-    second.advance(1), second.advance(1);
-    at = 2;
-    while (!end) std::this_thread::sleep_for(1ms);
-    second.advance(10);
+    {
+      ProgressStage second(control, "second", 8, "things");
+      second.advance(1), second.advance(1);
+      at = 2;
+      while (!end) std::this_thread::sleep_for(1ms);
+      second.advance(10);
+    }
+    at = 3;
+    while (!out) std::this_thread::sleep_for(1ms);
     return {};
   });
   EXPECT_TRUE(wait_for([&] { return at == 1; }));
@@ -129,6 +133,9 @@ TEST(BackgroundJob, TellsWhatItIsAt) {
   EXPECT_EQ(job.status().fraction, 0.25);
   EXPECT_GT(job.status().seconds, early);
   end = true;
+  EXPECT_TRUE(wait_for([&] { return at == 3; }));
+  EXPECT_EQ(job.status().fraction, -1) << "nobody knows how far what follows is";
+  out = true;
   EXPECT_TRUE(wait_for([&] { return !job.running(); }));
   EXPECT_EQ(job.status().fraction, 1) << "never more";
   const double took = job.status().seconds;

@@ -52,14 +52,15 @@ TEST(Settings, EveryNameSetsAndTellsItsValue) {
 /// The defaults of the tool's options, of scripts and of the panels.
 TEST(Settings, StartAtTheirDefaults) {
   const std::map<std::string, std::string> wanted = {
-      {"exposure", "auto"}, {"tonemap", "filmic"},    {"debug", "none"},      {"scale", "1"},
-      {"wipe", "0.5"},      {"indirect-scale", "3"},  {"show", "realtime"},   {"block", "16"},
-      {"against", "path"},  {"truth-depth", "25"},    {"degree", "4"},        {"truth-spp", "256"},
-      {"hier", "off"},      {"lookup", "irradiance"}, {"layer", "sum"},       {"weights", "surface"},
-      {"operator", "mean"}, {"neighbors", "-1"},      {"threshold", "0"},     {"balls", "off"},
-      {"ball", "radiance"}, {"ball-size", "0"},       {"lobes", "off"},       {"graph", "off"},
-      {"names", "off"},     {"play", "off"},          {"speed", "0.5"},       {"antialias", "on"},
-      {"histogram", "off"}, {"waveform", "off"},      {"false-color", "off"}, {"draw", "none"}};
+      {"exposure", "auto"},   {"tonemap", "filmic"},    {"debug", "none"},     {"scale", "1"},
+      {"wipe", "0.5"},        {"indirect-scale", "3"},  {"show", "realtime"},  {"block", "16"},
+      {"against", "path"},    {"truth-depth", "25"},    {"degree", "4"},       {"truth-spp", "256"},
+      {"hier", "off"},        {"lookup", "irradiance"}, {"quality", "window"}, {"layer", "sum"},
+      {"weights", "surface"}, {"operator", "mean"},     {"neighbors", "-1"},   {"threshold", "0"},
+      {"balls", "off"},       {"ball", "radiance"},     {"ball-size", "0"},    {"lobes", "off"},
+      {"graph", "off"},       {"names", "off"},         {"play", "off"},       {"speed", "0.5"},
+      {"antialias", "on"},    {"histogram", "off"},     {"waveform", "off"},   {"false-color", "off"},
+      {"draw", "none"}};
   std::map<std::string, std::string> got;
   for (const SettingName& setting : setting_names()) got[setting.name] = setting.get(Settings{});
   EXPECT_EQ(got, wanted);
@@ -116,6 +117,7 @@ TEST(Settings, GoWhereTheirNameSays) {
       {"truth-depth", "3", [](Settings& s) { s.truth_depth = 3; }},
       {"truth-spp", "9", [](Settings& s) { s.truth_passes = 9; }},
       {"lookup", "light", [](Settings& s) { s.lookup = probes::LookupMethod::light; }},
+      {"quality", "best", [](Settings& s) { s.quality = Quality::best; }},
       {"weights", "trilinear", [](Settings& s) { s.weights = probes::WeightMethod::trilinear; }},
       {"layer", "neighbor", [](Settings& s) { s.layer = probes::ProbeLayer::neighbor; }},
       {"degree", "3", [](Settings& s) { s.degree = 3; }},

@@ -58,7 +58,7 @@ TEST_F(StillPicture, ASceneGetsItsLightHoweverItIsOpened) {
   };
   window_->dropped = {"bare.glb"};
   turn();
-  EXPECT_FALSE(is_lit()) << "it has no SPHLs";
+  EXPECT_TRUE(is_lit()) << "it has no SPHLs: places are found";
   options_.probes = "auto";
   app().request_open("bare.glb");
   EXPECT_TRUE(is_lit());

@@ -28,8 +28,17 @@ Effort effort_of(Quality quality) {
   return {};
 }
 
+namespace {
+
+constexpr double other = 64e6, surfel = 2000, ray = 45;
+
+}  // namespace
+
+double network_bytes(double surfels, double rays) {
+  return other + surfel * surfels + ray * rays;
+}
+
 int surfels_within(std::uint64_t bytes, int link_rays) {
-  constexpr double other = 64e6, surfel = 2000, ray = 45;
   const double count = (static_cast<double>(bytes) - other) / (surfel + ray * link_rays);
   return static_cast<int>(std::clamp(count, 1000.0, 16e6));
 }

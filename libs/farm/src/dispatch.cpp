@@ -33,6 +33,7 @@ class Dispatcher {
         renderer_(options.renderer),
         service_(job_service(options.renderer)),
         messages_(options.messages),
+        failure_(options.failure),
         patience_(options.patience),
         client_(connect(options.broker)) {
     for (const UnitGroup& group : groups) {
@@ -55,6 +56,7 @@ class Dispatcher {
       submit_more();
       if (auto event = client_.poll(look)) take(std::move(*event));
       complain();
+      give_up();
     }
   }
 
@@ -138,6 +140,11 @@ class Dispatcher {
     write_file(messages_ / fmt::format("{:04}.{}.{}", job, what, ending), body);
   }
 
+  void give_up() const {
+    if (!failure_ || left_ == 0) return;
+    if (const std::string why = failure_(); !why.empty()) throw Error("the farm", why);
+  }
+
   /// Says once what it waits for.
   void complain() {
     if (complained_ || heard_ || watch_.seconds() < patience_) return;
@@ -162,6 +169,7 @@ class Dispatcher {
   Renderer renderer_;
   std::string service_;
   std::filesystem::path messages_;
+  const std::function<std::string()>& failure_;
   double patience_;
   majordomo::Client client_;
   std::vector<std::size_t> next_;  ///< first unit of each group that no job has

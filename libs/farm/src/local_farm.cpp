@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstring>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include <fcntl.h>
@@ -58,9 +59,31 @@ void require_program(const fs::path& tool) {
     throw Error(tool.string(), "is no program: it cannot be started", "name the ssphh tool");
 }
 
-bool ended(pid_t pid) {
+/// How a process has ended; none: it has not.
+struct Ending {
+  int exit_code = -1;  ///< −1: by a signal
+  std::string text;
+};
+
+std::optional<Ending> ended(pid_t pid) {
   int status = 0;
-  return ::waitpid(pid, &status, WNOHANG) != 0;
+  if (::waitpid(pid, &status, WNOHANG) == 0) return {};
+  if (WIFSIGNALED(status))
+    return Ending{-1, fmt::format("signal {}, {}", WTERMSIG(status), ::strsignal(WTERMSIG(status)))};
+  return Ending{WEXITSTATUS(status), fmt::format("exit code {}", WEXITSTATUS(status))};
+}
+
+/// The last lines of a log, for a message that ends with them; empty: there are none.
+std::string tail_of(const fs::path& log) {
+  std::string text;
+  if (FILE* file = std::fopen(log.c_str(), "r")) {
+    char buffer[1024];
+    if (std::fseek(file, -1000, SEEK_END) != 0) std::rewind(file);
+    text.assign(buffer, std::fread(buffer, 1, sizeof(buffer), file));
+    std::fclose(file);
+  }
+  while (text.ends_with('\n')) text.pop_back();
+  return text.empty() ? "" : "; its log ends: " + text;
 }
 
 }  // namespace
@@ -73,6 +96,7 @@ struct LocalFarm::Impl {
   mutable std::mutex mutex;
   std::vector<pid_t> workers;
   int restarts = 0;
+  std::string failure;
   std::atomic<bool> stopping{false};
   std::thread watcher;
 
@@ -84,36 +108,46 @@ struct LocalFarm::Impl {
                   "--slots", "1", "--threads", std::to_string(threads), "--name",
                   fmt::format("local:{}", i % count), "--cache", options.cache.string(), "--cache-size",
                   std::to_string(std::max<std::uint64_t>(1, options.cache_bytes >> 20)), "--config", "none"},
-                 folder / fmt::format("worker-{}.log", i));
+                 log_of(i));
+  }
+
+  fs::path log_of(std::size_t worker) const { return folder / fmt::format("worker-{}.log", worker); }
+
+  pid_t start_broker() const {
+    return spawn(options.tool, {"broker", "--bind", endpoint, "--attempts", "5", "--config", "none"},
+                 folder / "broker.log");
   }
 
   void watch() {
     while (!stopping) {
       std::this_thread::sleep_for(options.look);
       const std::lock_guard lock(mutex);
-      if (broker > 0 && ended(broker)) {
-        log(LogLevel::error, fmt::format("the local broker has ended; its log: {}", tail("broker.log")));
+      if (const auto end = broker > 0 ? ended(broker) : std::nullopt) {
+        failure = fmt::format("the local broker has ended ({}){}", end->text, tail_of(folder / "broker.log"));
         broker = -1;
       }
       for (std::size_t i = 0; i < workers.size() && !stopping; ++i) {
-        if (workers[i] < 0 || !ended(workers[i])) continue;
-        const bool again = restarts < 8 * options.workers;
-        log_warning("local worker {} has ended{}", i, again ? "; it is started again" : "");
-        workers[i] = again ? start_worker(i) : -1;
-        ++restarts;
+        if (const auto end = workers[i] > 0 ? ended(workers[i]) : std::nullopt) end_worker(i, *end);
       }
     }
   }
 
-  std::string tail(const char* name) const {
-    std::string text;
-    if (FILE* file = std::fopen((folder / name).c_str(), "r")) {
-      char buffer[1024];
-      std::fseek(file, -1000, SEEK_END);
-      text.assign(buffer, std::fread(buffer, 1, sizeof(buffer), file));
-      std::fclose(file);
+  void end_worker(std::size_t i, const Ending& end) {
+    const bool again = end.exit_code != never_retry && restarts < 8 * options.workers;
+    const std::string what = fmt::format("local worker {} has ended ({})", i, end.text);
+    if (again) {
+      log_warning("{}; it is started again", what);
+      workers[i] = start_worker(i);
+      ++restarts;
+      return;
     }
-    return text;
+    const std::string all = what + tail_of(log_of(i));
+    workers[i] = -1;
+    const bool left = std::ranges::any_of(workers, [](pid_t pid) { return pid > 0; });
+    if (left || !failure.empty())
+      log_warning("{}", all);
+    else
+      failure = "no worker is left: " + all;
   }
 
   void stop() {
@@ -145,8 +179,7 @@ LocalFarm::LocalFarm(LocalFarmOptions options) : impl_(new Impl) {
   s.folder = temporary_folder();
   s.endpoint = "ipc://" + (s.folder / "broker").string();
   try {
-    s.broker = spawn(s.options.tool, {"broker", "--bind", s.endpoint, "--attempts", "5", "--config", "none"},
-                     s.folder / "broker.log");
+    s.broker = s.start_broker();
     for (int i = 0; i < s.options.workers; ++i)
       s.workers.push_back(s.start_worker(static_cast<std::size_t>(i)));
   } catch (...) {
@@ -162,6 +195,28 @@ LocalFarm::~LocalFarm() {
 
 BrokerAddress LocalFarm::address() const {
   return {impl_->endpoint, std::nullopt};
+}
+
+int LocalFarm::broker_pid() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->broker;
+}
+
+std::string LocalFarm::failure() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->failure;
+}
+
+void LocalFarm::restart() {
+  Impl& s = *impl_;
+  const std::lock_guard lock(s.mutex);
+  require_program(s.options.tool);
+  if (s.broker < 0) s.broker = s.start_broker();
+  for (std::size_t i = 0; i < s.workers.size(); ++i) {
+    if (s.workers[i] < 0) s.workers[i] = s.start_worker(i);
+  }
+  s.restarts = 0;
+  s.failure.clear();
 }
 
 std::vector<int> LocalFarm::worker_pids() const {

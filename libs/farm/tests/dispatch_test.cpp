@@ -162,5 +162,18 @@ TEST(Dispatch, ResultThatAnswersAnotherJobIsRefused) {
   thread.join();
 }
 
+TEST(Dispatch, EndsWhereNoJobWillBeDoneAnyMore) {
+  const Quiet quiet;
+  const BrokerThread broker;
+  FarmOptions options{.broker = broker.address()};
+  std::string failure;
+  options.failure = [&] { return std::exchange(failure, "no worker is left"); };
+  FarmReport report;
+  UnitGroup group{1, [](auto) { return std::string("job"); }, [](auto, JobResult) {}};
+  EXPECT_EQ(
+      message_of([&] { dispatch(options, {group}, report, [](std::size_t, const FarmReport&) {}, {}); }),
+      "the farm: no worker is left");
+}
+
 }  // namespace
 }  // namespace ssphh::farm

@@ -142,12 +142,15 @@ TEST_F(LocalFarmTest, AWorkerThatLivesOutlivesOneThatIsGivenUp) {
   EXPECT_EQ(farm.worker_pids().at(0), first);
   const auto warned = [&] {
     const std::lock_guard lock(mutex_);
-    return std::ranges::count(warnings_, "local worker 0 has ended");
+    return std::ranges::count_if(
+        warnings_, [](const std::string& text) { return text.starts_with("local worker 0 has ended"); });
   };
   EXPECT_EQ(warned(), 0);
   std::ofstream(end) << "now";
   EXPECT_TRUE(comes_true([&] { return farm.worker_pids() == std::vector<int>{-1, -1}; }));
-  EXPECT_EQ(warned(), 1) << "it is not started again: the other has used up their restarts";
+  EXPECT_TRUE(farm.failure().starts_with("no worker is left: local worker 0 has ended"))
+      << "it is not started again: the other has used up their restarts";
+  EXPECT_EQ(warned(), 0) << "whoever asked for the farm tells";
 }
 
 TEST_F(LocalFarmTest, WorkersThatDieAreStartedAgainEightTimesEach) {
@@ -162,29 +165,61 @@ TEST_F(LocalFarmTest, WorkersThatDieAreStartedAgainEightTimesEach) {
   }
   EXPECT_EQ(starts, 2u + 16u);
   const std::lock_guard lock(mutex_);
-  ASSERT_EQ(warnings_.size(), 18u);
-  EXPECT_EQ(std::ranges::count(warnings_, "local worker 0 has ended; it is started again") +
-                std::ranges::count(warnings_, "local worker 1 has ended; it is started again"),
+  ASSERT_EQ(warnings_.size(), 17u) << "the last one is for the caller to tell";
+  EXPECT_EQ(std::ranges::count(warnings_, "local worker 0 has ended (exit code 0); it is started again") +
+                std::ranges::count(warnings_, "local worker 1 has ended (exit code 0); it is started again"),
             16);
-  EXPECT_EQ(std::ranges::count(warnings_, "local worker 0 has ended"), 1);
-  EXPECT_EQ(std::ranges::count(warnings_, "local worker 1 has ended"), 1);
+  EXPECT_EQ(std::ranges::count_if(warnings_,
+                                  [&](const std::string& text) {
+                                    return text.find("ended (exit code 0); its log ends: ") != text.npos;
+                                  }),
+            1);
 }
 
-TEST_F(LocalFarmTest, ABrokerThatEndsIsToldOnceWithTheEndOfItsLog) {
+TEST_F(LocalFarmTest, AWorkerThatWouldFailAgainIsToldWithTheEndOfItsLogAndNotStartedAgain) {
+  write_tool("[ $1 = worker ] || exec sleep 100\necho 'error: no room'\nexit 42");
+  options_.workers = 1;
+  LocalFarm farm(options_);
+  ASSERT_TRUE(comes_true([&] { return !farm.failure().empty(); }));
+  const std::string told = "local worker 0 has ended (exit code 42); its log ends: " +
+                           of_worker(farm, thread_count(), 0, 20 << 10) + "error: no room";
+  EXPECT_EQ(farm.failure(), "no worker is left: " + told);
+  EXPECT_EQ(farm.worker_pids(), std::vector<int>{-1});
+  write_tool("exec sleep 100");
+  farm.restart();
+  EXPECT_EQ(farm.failure(), "");
+  EXPECT_GT(farm.worker_pids()[0], 0);
+}
+
+TEST_F(LocalFarmTest, ABrokerThatWasKilledIsStartedAgainWhereThatIsAskedFor) {
+  write_tool("exec sleep 100");
+  LocalFarm farm(options_);
+  const std::vector<int> workers = farm.worker_pids();
+  started_with(farm, "broker.log");
+  const int broker = farm.broker_pid();
+  ::kill(broker, SIGKILL);
+  ASSERT_TRUE(comes_true([&] { return farm.broker_pid() < 0; }));
+  EXPECT_TRUE(
+      farm.failure().starts_with("the local broker has ended (signal 9, Killed); its log ends: broker"))
+      << farm.failure();
+  farm.restart();
+  EXPECT_EQ(farm.failure(), "");
+  EXPECT_GT(farm.broker_pid(), 0);
+  EXPECT_NE(farm.broker_pid(), broker);
+  EXPECT_EQ(farm.worker_pids(), workers) << "those that live are left alone";
+}
+
+TEST_F(LocalFarmTest, ABrokerThatEndsIsAFailureWithTheEndOfItsLog) {
   write_tool("[ $1 = broker ] || exec sleep 100\nprintf 'begin%01500dend' 7");
   const LocalFarm farm(options_);
   const std::vector<int> workers = farm.worker_pids();
-  const auto count = [this] {
-    const std::lock_guard lock(mutex_);
-    return errors_.size();
-  };
-  ASSERT_TRUE(comes_true([&] { return count() > 0; }));
+  ASSERT_TRUE(comes_true([&] { return !farm.failure().empty(); }));
   std::this_thread::sleep_for(5 * options_.look);
   EXPECT_EQ(farm.worker_pids(), workers) << "those that live are left alone";
+  EXPECT_EQ(farm.failure(),
+            "the local broker has ended (exit code 0); its log ends: " + std::string(996, '0') + "7end");
   const std::lock_guard lock(mutex_);
-  EXPECT_TRUE(warnings_.empty());
-  ASSERT_EQ(errors_.size(), 1u);
-  EXPECT_EQ(errors_[0], "the local broker has ended; its log: " + std::string(996, '0') + "7end");
+  EXPECT_TRUE(warnings_.empty() && errors_.empty()) << "whoever asked for the farm tells";
 }
 
 TEST_F(LocalFarmTest, NumberOfWorkersHasLimits) {

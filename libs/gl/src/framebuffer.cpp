@@ -102,6 +102,14 @@ void copy_colors(const Framebuffer& from, const Rect& part, const Framebuffer& t
                          GL_NEAREST);
 }
 
+void copy_texels(const LayerPlace& from, const LayerPlace& to, int width, int height) {
+  const auto target = [](const Texture& texture) {
+    return texture.layers() > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D;
+  };
+  glCopyImageSubData(from.texture.id(), target(from.texture), 0, from.x, from.y, from.layer, to.texture.id(),
+                     target(to.texture), 0, to.x, to.y, to.layer, width, height, 1);
+}
+
 void texture_barrier() {
   glTextureBarrier();
 }

@@ -33,6 +33,31 @@ class GlFramebuffer : public WithShaders {
   }
 };
 
+TEST_F(GlFramebuffer, TexelsAreCopiedAsTheyAreFromLayerToLayer) {
+  const Texture from(Format::depth32f, 4, 2, 3), to(Format::depth32f, 2, 4, 2);
+  for (int layer = 0; layer < 3; ++layer) {
+    const Framebuffer target(from, layer);
+    bind_framebuffer(target.id(), {0, 0, 4, 2});
+    for (int x = 0; x < 4; ++x) clear_depth({x, 1, 1, 1}, 0.0625f * static_cast<float>(layer * 4 + x));
+  }
+  for (int layer = 0; layer < 2; ++layer) {
+    const Framebuffer target(to, layer);
+    bind_framebuffer(target.id(), {0, 0, 2, 4});
+    clear_depth({0, 0, 2, 4}, 1);
+  }
+  copy_texels({from, 2, 1, 1}, {to, 1, 0, 0}, 2, 1);
+  std::vector<float> depths(16);
+  to.read(depths, 1);
+  EXPECT_THAT(depths, ElementsAre(1, 1, 1, 1, 1, 1, 1, 1, 0.0625f * 9, 0.0625f * 10, 1, 1, 1, 1, 1, 1));
+
+  Texture color(Format::rgba32f, 2, 1);
+  const Texture other(Format::rgba32f, 1, 1);
+  const std::vector<vec4> texels{vec4(1, 2, 3, 4), vec4(5, 6, 7, 8)};
+  color.upload(std::as_bytes(std::span(texels)));
+  copy_texels({color, 0, 1, 0}, {other}, 1, 1);
+  EXPECT_THAT(texels_of(other), ElementsAre(vec4(5, 6, 7, 8)));
+}
+
 TEST_F(GlFramebuffer, EachOfEightTexturesIsClearedAndDrawnIntoByItsNumber) {
   std::vector<Texture> textures;
   std::vector<const Texture*> all;

@@ -26,12 +26,12 @@ DepthBounds::DepthBounds(int size, int tiles)
 
 void DepthBounds::update(const MapAtlas& maps, Shaders& shaders, const gl::VertexArray& no_vertices,
                          FrameCounters& counters) {
-  if (maps.drawn().empty()) return;
+  if (maps.changed().empty()) return;
   maps.texture().bind(unit::parallel_maps);
   bind();
   no_vertices.bind();
   gl::apply({});
-  for (const int tile : maps.drawn()) {
+  for (const int tile : maps.changed()) {
     if (tile < tiles_) update_tile(tile, maps, shaders, counters);
   }
 }

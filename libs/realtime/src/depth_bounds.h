@@ -14,7 +14,7 @@ class DepthBounds {
   /// For the first `tiles` tiles of maps of `size` texels.
   DepthBounds(int size, int tiles);
 
-  /// Brings those up to date that `maps` drew last. One small draw call for each level.
+  /// Brings those up to date that `maps` changed last. One small draw call for each level.
   void update(const MapAtlas& maps, Shaders& shaders, const gl::VertexArray& no_vertices,
               FrameCounters& counters);
   void bind() const;

@@ -14,14 +14,17 @@ void Lights::place_all(const std::vector<mat4>& world) {
 }
 
 void Lights::take_from(Lights& before, const std::vector<mat4>& world) {
-  const auto take = [](MapAtlas& to, MapAtlas& from) {
+  const auto take = [](MapAtlas& to, MapAtlas& from, bool as_many) {
+    if (!as_many) return to.keep(std::move(from));
     to = std::move(from);
     to.want(0, to.count(), true);
   };
-  if (same_lamp_maps(before)) take(lamps_, before.lamps_);
-  if (same_area_maps(before)) take(areas_, before.areas_);
-  if (same_sun_maps(before)) take(suns_, before.suns_), bounds_ = std::move(before.bounds_);
-  if (same_sky_maps(before)) take(skies_, before.skies_);
+  take(lamps_, before.lamps_, same_lamp_maps(before));
+  take(areas_, before.areas_, same_area_maps(before));
+  const bool suns = same_sun_maps(before);
+  take(suns_, before.suns_, suns);
+  if (suns) bounds_ = std::move(before.bounds_);
+  take(skies_, before.skies_, same_sky_maps(before));
   if (same_sky_) {
     environment_ = std::move(before.environment_);
     own_environment_ = std::move(before.own_environment_);

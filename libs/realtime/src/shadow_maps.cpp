@@ -45,7 +45,7 @@ MapAtlas::MapAtlas(int size, int tiles) : size_(size), layout_(tiles, shadow_atl
   for (int i = 0; i < layout_.layers; ++i) layers_.emplace_back(texture_, i);
   views_.resize(static_cast<std::size_t>(tiles));
   fresh_.assign(static_cast<std::size_t>(tiles), unused);
-  drawn_.reserve(static_cast<std::size_t>(tiles));
+  changed_.reserve(static_cast<std::size_t>(tiles));
 }
 
 std::size_t MapAtlas::bytes_of(int size, int tiles) {
@@ -75,6 +75,7 @@ void MapAtlas::want(int first, int count, bool wanted) {
 }
 
 void MapAtlas::invalidate(const std::vector<scene::Bounds>& moved) {
+  if (before_) before_->invalidate(moved);
   for (std::size_t t = 0; t < fresh_.size(); ++t) {
     if (fresh_[t] != fresh) continue;
     const bool seen = std::ranges::any_of(moved, [&](const auto& box) { return sees_box(views_[t], box); });
@@ -83,8 +84,47 @@ void MapAtlas::invalidate(const std::vector<scene::Bounds>& moved) {
 }
 
 void MapAtlas::invalidate_all() {
+  before_.reset();
+  redraw_all();
+}
+
+void MapAtlas::redraw_all() {
   for (auto& state : fresh_) {
     if (state == fresh) state = stale, ++stale_;
+  }
+}
+
+void MapAtlas::keep(MapAtlas&& before) {
+  // Where no frame was drawn in between, what there is to keep is still that of before
+  MapAtlas& whole = before.before_ ? *before.before_ : before;
+  if (whole.size_ == size_) before_ = std::make_unique<MapAtlas>(std::move(whole));
+}
+
+void MapAtlas::copy_kept() {
+  const std::unique_ptr<MapAtlas> before = std::move(before_);
+  if (!before || (glass_.id() && !before->glass_.id())) return;
+  const auto place = [&](const MapAtlas& atlas, const gl::Texture& texture, int tile) {
+    return gl::LayerPlace{texture, atlas.layout_.layer(tile), atlas.layout_.column(tile) * size_,
+                          atlas.layout_.row(tile) * size_};
+  };
+  const int most = before->count();
+  int next = 0;  // lamps keep their order: most often the tile after the last one that was found
+  for (int tile = 0; tile < count(); ++tile) {
+    if (fresh_[tile] != stale) continue;
+    const auto shows_it = [&](int from) {
+      return before->fresh_[from] == fresh && before->views_[from] == views_[tile];
+    };
+    int looked_at = 0;
+    while (looked_at < most && !shows_it((next + looked_at) % most)) ++looked_at;
+    if (looked_at == most) continue;
+    const int from = (next + looked_at) % most;
+    next = from + 1;
+    gl::copy_texels(place(*before, before->texture_, from), place(*this, texture_, tile), size_, size_);
+    if (glass_.id())
+      gl::copy_texels(place(*before, before->glass_, from), place(*this, glass_, tile), size_, size_);
+    fresh_[tile] = fresh;
+    --stale_;
+    changed_.push_back(tile);
   }
 }
 
@@ -93,22 +133,25 @@ void MapAtlas::begin_glass() {
   glass_ = gl::Texture(gl::Format::rgba8, texture_.width(), texture_.height(), layout_.layers);
   glass_.set_filter(true);
   for (int i = 0; i < layout_.layers; ++i) glass_layers_.emplace_back(glass_, texture_, i);
-  invalidate_all();
+  redraw_all();
 }
 
 int MapAtlas::update(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, int most, int& waiting,
                      FrameCounters& counters, gl::Program* glass) {
-  drawn_.clear();
+  changed_.clear();
   if (glass) begin_glass();
-  for (std::size_t t = 0; t < fresh_.size() && stale_ > 0 && static_cast<int>(drawn_.size()) < most; ++t) {
+  copy_kept();
+  int drawn = 0;
+  for (std::size_t t = 0; t < fresh_.size() && stale_ > 0 && drawn < most; ++t) {
     if (fresh_[t] != stale) continue;
     draw_tile(static_cast<int>(t), scene, opaque, alpha, glass, counters);
     fresh_[t] = fresh;
     --stale_;
-    drawn_.push_back(static_cast<int>(t));
+    ++drawn;
+    changed_.push_back(static_cast<int>(t));
   }
   waiting += stale_;
-  return static_cast<int>(drawn_.size());
+  return drawn;
 }
 
 void MapAtlas::draw_tile(int tile, const GpuScene& scene, gl::Program& opaque, gl::Program& alpha,

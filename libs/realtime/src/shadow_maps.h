@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -52,7 +53,8 @@ class MapAtlas {
   const TileLayout& layout() const { return layout_; }
   int count() const { return static_cast<int>(fresh_.size()); }
   std::size_t bytes() const {
-    return (texture_.id() ? texture_.bytes() : 0) + (glass_.id() ? glass_.bytes() : 0);
+    return (texture_.id() ? texture_.bytes() : 0) + (glass_.id() ? glass_.bytes() : 0) +
+           (before_ ? before_->bytes() : 0);
   }
   const gl::Texture& texture() const { return texture_; }
   /// Colours, tile by tile; none before an update with a program for glass.
@@ -66,25 +68,32 @@ class MapAtlas {
   void invalidate(const std::vector<scene::Bounds>& moved);
   void invalidate_all();
 
+  /// Tiles of `before`, of the same scene, that are up to date: those that show what tiles here shall show
+  /// are copied by the next update() in place of being drawn.
+  void keep(MapAtlas&& before);
+
   /// Draws tiles that are out of date, at most `most`; returns how many. `waiting` grows by those left. With
   /// a program for `glass` they hold its colours, too.
   int update(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, int most, int& waiting,
              FrameCounters& counters, gl::Program* glass = nullptr);
-  /// Tiles that the last update drew.
-  std::span<const int> drawn() const { return drawn_; }
+  /// Tiles that the last update drew or copied.
+  std::span<const int> changed() const { return changed_; }
 
  private:
   void draw_tile(int tile, const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, gl::Program* glass,
                  FrameCounters& counters);
   void begin_glass();
+  void redraw_all();
+  void copy_kept();
 
   int size_ = 0, stale_ = 0;
   TileLayout layout_;
   gl::Texture texture_, glass_;
   std::vector<gl::Framebuffer> layers_, glass_layers_;
   std::vector<MapView> views_;
-  std::vector<int> drawn_;
-  std::vector<std::uint8_t> fresh_;  ///< 0 stale, 1 fresh, 2 unused, 3 not wanted
+  std::vector<int> changed_;
+  std::vector<std::uint8_t> fresh_;   ///< 0 stale, 1 fresh, 2 unused, 3 not wanted
+  std::unique_ptr<MapAtlas> before_;  ///< until the next update
 };
 
 }  // namespace ssphh::realtime

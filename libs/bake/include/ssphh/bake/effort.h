@@ -28,8 +28,12 @@ struct Effort {
 /// From quality to quality time grows two- to fourfold (docs/methods/transport.md#quality).
 Effort effort_of(Quality quality);
 
-/// Surfels whose network, at so many rays each, stays within `bytes` while it is built: 45 bytes a ray and 2
-/// kB a surfel, as measured, beside 64 MB for all else. Never less than a thousand.
+/// Bytes that a network of so many surfels takes while it is built, with all their rays: 45 bytes a ray and 2
+/// kB a surfel, as measured, beside 64 MB for all else.
+double network_bytes(double surfels, double rays);
+
+/// Surfels whose network, at so many rays each, stays within `bytes` while it is built. Never less than a
+/// thousand.
 int surfels_within(std::uint64_t bytes, int link_rays);
 
 }  // namespace ssphh::bake

@@ -23,6 +23,9 @@ struct FarmOptions {
   /// Folder in which every job and its result is kept, as sent: NNNN.job.json and NNNN.result.json (.bin
   /// where `content` is binary); empty: none.
   std::filesystem::path messages = {};
+  /// Why no job will be done any more, told where somebody knows; an empty text: jobs are done. Asked again
+  /// and again; empty: nobody knows.
+  std::function<std::string()> failure = {};
   double patience = 5;  ///< seconds without a result after which it says once what it waits for
 };
 

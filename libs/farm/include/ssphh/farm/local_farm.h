@@ -4,6 +4,7 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <ssphh/farm/blob_server.h>
@@ -21,8 +22,12 @@ struct LocalFarmOptions {
   std::chrono::milliseconds look{100};  ///< after which it looks again for processes that have ended
 };
 
+/// Exit code of a worker that would fail again in the same way.
+inline constexpr int never_retry = 42;
+
 /// Children talk through a socket in a private temporary folder, which also holds their logs. A worker that
-/// dies is started again, some times. They end with this object, and when this process dies in any way.
+/// dies is started again, some times, but not where it ended with never_retry. They end with this object, and
+/// when this process dies in any way.
 class LocalFarm {
  public:
   /// Throws Error when a process cannot be started.
@@ -34,6 +39,13 @@ class LocalFarm {
   BrokerAddress address() const;
   /// Process ids of the workers, as of now.
   std::vector<int> worker_pids() const;
+  int broker_pid() const;  ///< −1: it has ended
+  /// Why no job will be done any more, for the caller to tell: the broker has ended, or no worker is left,
+  /// how, and the end of its log. Empty: jobs are done.
+  std::string failure() const;
+  /// Starts the broker again if it has ended, and workers that were given up. Throws Error as the
+  /// constructor.
+  void restart();
 
  private:
   struct Impl;

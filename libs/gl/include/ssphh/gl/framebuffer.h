@@ -41,6 +41,13 @@ void clear_color_uint(int attachment, unsigned r, unsigned g, unsigned b, unsign
 /// Colours of `part` of one into `over` of another, which may be smaller: of each of its texels one,
 /// unfiltered.
 void copy_colors(const Framebuffer& from, const Rect& part, const Framebuffer& to, const Rect& over);
+/// One layer of a texture array, or of a texture the only one, from which texels are copied, or to which.
+struct LayerPlace {
+  const Texture& texture;
+  int layer = 0, x = 0, y = 0;  ///< lower left corner
+};
+/// Texels of level 0 as they are, depths too, from one texture to another of the same format.
+void copy_texels(const LayerPlace& from, const LayerPlace& to, int width, int height);
 /// What was drawn into a texture may be read by what is drawn into other texels of it next.
 void texture_barrier();
 /// Colours of a part of a framebuffer (0: the window's own, before it is shown) as RGBA bytes with alpha 255,
