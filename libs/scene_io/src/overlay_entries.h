@@ -21,6 +21,6 @@ void read_light(scene::Scene& scene, const json::Cursor& entry, std::size_t numb
                 const std::filesystem::path& overlay);
 /// Of an SPHL that shines: a lamp of its name at its node.
 void read_sphl_lamp(scene::Scene& scene, const json::Cursor& entry, const scene::Sphl& sphl,
-                  const std::filesystem::path& overlay);
+                    const std::filesystem::path& overlay);
 
 }  // namespace ssphh::scene_io

@@ -90,7 +90,7 @@ void read_light(scene::Scene& scene, const json::Cursor& entry, std::size_t numb
 }
 
 void read_sphl_lamp(scene::Scene& scene, const json::Cursor& entry, const scene::Sphl& sphl,
-                  const std::filesystem::path& overlay) {
+                    const std::filesystem::path& overlay) {
   const auto emission = entry.find("emission");
   const auto group = entry.find("light_group");
   if (!emission && group) group->fail("only an SPHL with \"emission\" has a light group");

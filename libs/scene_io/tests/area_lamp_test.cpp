@@ -58,20 +58,25 @@ TEST(AreaLampOverlay, BadInputIsNamedWithItsPlace) {
   const std::string panel = R"({"type": "rectangle", "direction": [0, -1, 0], )",
                     disc = R"({"type": "disc", "direction": [0, -1, 0], )";
   EXPECT_THAT(error_of(panel + R"("width": 1})"), HasSubstr("lights[0]: \"height\" is missing"));
-  EXPECT_THAT(error_of(panel + R"("width": 1, "height": 0})"), HasSubstr("lights[0].height: must be greater than 0"));
-  EXPECT_THAT(error_of(panel + R"("width": -1, "height": 1})"), HasSubstr("lights[0].width: must be greater than 0"));
+  EXPECT_THAT(error_of(panel + R"("width": 1, "height": 0})"),
+              HasSubstr("lights[0].height: must be greater than 0"));
+  EXPECT_THAT(error_of(panel + R"("width": -1, "height": 1})"),
+              HasSubstr("lights[0].width: must be greater than 0"));
   EXPECT_THAT(error_of(panel + R"("width": 1e999, "height": 1})"), HasSubstr("o"));
   EXPECT_THAT(error_of(panel + R"("width": "1", "height": 1})"), HasSubstr("lights[0].width"));
   EXPECT_THAT(error_of(panel + R"("width": 1, "height": 1, "depth": 1})"), HasSubstr("depth"));
   EXPECT_THAT(error_of(disc + R"("radius": 0})"), HasSubstr("lights[0].radius: must be greater than 0"));
-  EXPECT_THAT(error_of(disc + R"("radius": 1, "width": 2})"), HasSubstr("lights[0].width: only a rectangle has one"));
+  EXPECT_THAT(error_of(disc + R"("radius": 1, "width": 2})"),
+              HasSubstr("lights[0].width: only a rectangle has one"));
   EXPECT_THAT(error_of(disc + R"("radius": 1, "power": 5, "intensity": 1})"),
               HasSubstr("has both \"intensity\" and \"power\""));
   EXPECT_THAT(error_of(disc + R"("radius": 1, "power": -5})"), HasSubstr("lights[0].power"));
-  EXPECT_THAT(error_of(disc + R"("radius": 1e-18, "power": 1e30})"), HasSubstr("is too much for so small a lamp"));
+  EXPECT_THAT(error_of(disc + R"("radius": 1e-18, "power": 1e30})"),
+              HasSubstr("is too much for so small a lamp"));
   EXPECT_THAT(error_of(R"({"type": "point", "power": 5})"), HasSubstr("only a rectangle or a disc has one"));
   EXPECT_THAT(error_of(R"({"type": "disc", "radius": 1})"), HasSubstr("needs \"direction\" or \"look_at\""));
-  EXPECT_THAT(error_of(disc + R"("radius": 1, "profile": {"ies": ""}})"), HasSubstr("only a point or spot light"));
+  EXPECT_THAT(error_of(disc + R"("radius": 1, "profile": {"ies": ""}})"),
+              HasSubstr("only a point or spot light"));
 }
 
 scene::Scene lamps() {
@@ -100,7 +105,8 @@ std::string gltf_error(const std::string& light) {
   const test::TempDir dir;
   const std::filesystem::path file = dir / "l.gltf";
   write_file(file, std::string_view(R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_lights_punctual"],
-    "extensions":{"KHR_lights_punctual":{"lights":[)" + light + R"(]}},
+    "extensions":{"KHR_lights_punctual":{"lights":[)" +
+                                    light + R"(]}},
     "nodes":[{"extensions":{"KHR_lights_punctual":{"light":0}}}],"scenes":[{"nodes":[0]}]})"));
   try {
     load_scene(file.string());
@@ -116,9 +122,12 @@ TEST(AreaLampGltf, BadExtrasAreNamed) {
   };
   EXPECT_EQ(gltf_error(light("spot", R"("type":"rectangle","size":[1,2])")), "");
   EXPECT_EQ(gltf_error(light("spot", R"("type":"disc","radius":2)")), "");
-  EXPECT_THAT(gltf_error(light("point", R"("type":"disc","radius":2)")), HasSubstr("only a spot light can be a disc"));
-  EXPECT_THAT(gltf_error(light("spot", R"("type":"disc","radius":0)")), HasSubstr("radius: must be greater than 0"));
-  EXPECT_THAT(gltf_error(light("spot", R"("type":"rectangle","size":[1,0])")), HasSubstr("must be greater than 0"));
+  EXPECT_THAT(gltf_error(light("point", R"("type":"disc","radius":2)")),
+              HasSubstr("only a spot light can be a disc"));
+  EXPECT_THAT(gltf_error(light("spot", R"("type":"disc","radius":0)")),
+              HasSubstr("radius: must be greater than 0"));
+  EXPECT_THAT(gltf_error(light("spot", R"("type":"rectangle","size":[1,0])")),
+              HasSubstr("must be greater than 0"));
   EXPECT_THAT(gltf_error(light("spot", R"("type":"rectangle","size":[1])")), HasSubstr("size"));
   EXPECT_THAT(gltf_error(light("spot", R"("type":"rectangle")")), HasSubstr("\"size\" is missing"));
   EXPECT_THAT(gltf_error(light("spot", R"("type":"square","size":[1,1])")),
@@ -152,7 +161,8 @@ TEST(AreaLampExport, OtherRenderersGetGlowingMeshes) {
     const ExportReport report = format.write(scene, settings, dir / "lamps");
     format.write(meshes, settings, dir / "meshes");
     EXPECT_EQ(files_of(dir / "lamps"), files_of(dir / "meshes")) << format.name;
-    EXPECT_THAT(report.differences, testing::Contains(HasSubstr("flat lamps block other light: panel, plate")))
+    EXPECT_THAT(report.differences,
+                testing::Contains(HasSubstr("flat lamps block other light: panel, plate")))
         << format.name;
   }
 }
