@@ -8,6 +8,7 @@
 #include <ssphh/scene_io/ies.h>
 
 #include "app.h"
+#include "model/lamp_aim.h"
 #include "model/lamp_profile.h"
 #include "model/lengths.h"
 #include "model/pick.h"

@@ -8,6 +8,7 @@
 #include <ssphh/scene_io/ies.h>
 
 #include "injection.h"
+#include "model/lamp_aim.h"
 #include "model/lamp_profile.h"
 #include "model/overlay_file.h"
 #include "model/sky_edit.h"

@@ -203,7 +203,8 @@ class Session {
     for (const auto& [index, change] : changes_) {
       scene::LightState& light = state.lights[index];
       if (change.position) light.world[3] = vec4(*change.position, 1);
-      if (change.direction) light.world = pipeline::aimed(light.world, *change.direction);
+      if (change.direction)
+        light.world = pipeline::aimed(scene_->scene().lights[index].type, light.world, *change.direction);
       if (change.color) light.color = *change.color;
       if (change.intensity) light.intensity = *change.intensity;
     }

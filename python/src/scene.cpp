@@ -16,6 +16,7 @@ struct Lamp {
   std::string name, group, type;
   vec3 position, direction, color;
   float intensity, radius;
+  vec2 size;
 };
 struct View {
   std::string name;
@@ -31,7 +32,7 @@ std::vector<Lamp> lamps(const LoadedScene& self) {
   for (const scene::Light& light : scene.lights) {
     const mat4& pose = world[light.node];
     all.push_back({light.name, scene::light_group(light), std::string(name_of(light.type)), vec3(pose[3]),
-                   -glm::normalize(vec3(pose[2])), light.color, light.intensity, light.radius});
+                   -glm::normalize(vec3(pose[2])), light.color, light.intensity, light.radius, light.size});
   }
   return all;
 }
@@ -149,13 +150,17 @@ void add_scene(py::module_& m) {
   at_home(light)
       .def_readonly("name", &Lamp::name)
       .def_readonly("group", &Lamp::group, "Light group by which it is dimmed.")
-      .def_readonly("type", &Lamp::type, "point, spot, directional or sphere.")
+      .def_readonly("type", &Lamp::type, "point, spot, directional, sphere, sphl, rectangle or disc.")
       .def_property_readonly(
           "position", [](const Lamp& l) { return array_of(l.position); }, "World [m].")
       .def_property_readonly("direction", [](const Lamp& l) { return array_of(l.direction); })
       .def_property_readonly("color", [](const Lamp& l) { return array_of(l.color); })
-      .def_readonly("intensity", &Lamp::intensity, "[W/sr], directional [W/m2], sphere [W/sr/m2].")
-      .def_readonly("radius", &Lamp::radius, "Of a sphere [m].")
+      .def_readonly("intensity", &Lamp::intensity,
+                    "Point and spot [W/sr], directional [W/m2], sphere, rectangle and disc [W/sr/m2].")
+      .def_readonly("radius", &Lamp::radius, "Of a sphere, an SPHL or a disc [m].")
+      .def_property_readonly(
+          "size", [](const Lamp& l) { return std::pair(l.size.x, l.size.y); },
+          "Width and height of a rectangle [m].")
       .def("__repr__", [](const Lamp& l) { return "<ssphh.Light '" + l.name + "': " + l.type + ">"; });
   py::class_<View> camera(m, "Camera", "A camera of a scene, posed at the scene's time.");
   at_home(camera)

@@ -19,7 +19,7 @@ class Light:
         """Light group by which it is dimmed."""
     @property
     def type(self) -> str:
-        """point, spot, directional or sphere."""
+        """point, spot, directional, sphere, sphl, rectangle or disc."""
     @property
     def position(self) -> Floats:
         """World [m], 3."""
@@ -31,10 +31,13 @@ class Light:
         """Linear RGB factor, 3."""
     @property
     def intensity(self) -> float:
-        """Point and spot [W/sr], directional [W/m2], sphere [W/sr/m2]."""
+        """Point and spot [W/sr], directional [W/m2], sphere, rectangle and disc [W/sr/m2]."""
     @property
     def radius(self) -> float:
-        """Of a sphere [m]."""
+        """Of a sphere, an SPHL or a disc [m]."""
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height of a rectangle [m]."""
 
 @final
 class Camera:

@@ -39,6 +39,16 @@ class Scenes(InAFolder):
         sun = next(light for light in sky.lights if light.type == "directional")
         self.assertAlmostEqual(float(-sun.direction[1]), 0.5, places=5, msg="the sine of 30 degrees")
 
+    def test_flat_lamps_have_a_size(self):
+        file = pathlib.Path(self.path("lit.ssphh.json"))
+        file.write_text("""{"scene": "builtin:two-rooms", "lights": [
+            {"name": "panel", "type": "rectangle", "width": 0.5, "height": 0.25, "direction": [0, -1, 0], "intensity": 7},
+            {"name": "plate", "type": "disc", "radius": 0.5, "direction": [0, -1, 0], "power": 30}]}""")
+        panel, plate = ssphh.load(file).lights[1:]
+        self.assertEqual((panel.type, panel.size, panel.intensity), ("rectangle", (0.5, 0.25), 7))
+        self.assertEqual((plate.type, plate.radius, plate.size), ("disc", 0.5, (0, 0)))
+        self.assertAlmostEqual(plate.intensity, 30 / (np.pi * np.pi * 0.25), places=4)
+
     def test_light_modes_are_asked_for_by_group(self):
         scene = ssphh.load("builtin:two-rooms", light_mode={"lamp": "mixed"})
         self.assertEqual(scene.light_modes, {"lamp": "mixed"})

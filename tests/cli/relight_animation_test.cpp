@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <ssphh/scene/builtin.h>
@@ -26,6 +27,7 @@ scene::Scene lit_stage() {
     scene::Light light;
     light.name = name, light.type = type, light.group = group;
     if (type == scene::LightType::sphere) light.radius = 0.1f;
+    if (type == scene::LightType::rectangle) light.size = {0.4f, 0.2f};
     test::add_stage_lamp(scene, light);
   };
   add("bulb", scene::LightType::point, "warm");
@@ -34,6 +36,7 @@ scene::Scene lit_stage() {
   add("globe", scene::LightType::sphere, "cold");
   add("twin", scene::LightType::point, "cold");
   add("twin", scene::LightType::point, "cold");
+  add("panel", scene::LightType::rectangle, "cold");
   scene.environment.emplace().equirect = image::Image(8, 4);
   scene.environment->equirect.set_rgb(2, 1, vec3(9));
   return scene;
@@ -104,6 +107,16 @@ TEST_F(Animation, ADirectionTurnsALampWhereItStands) {
   }
 }
 
+TEST_F(Animation, ARectangleIsAimedTheShortestWay) {
+  const mat4& before = still_.lights.back().world;
+  const vec3 aim = -vec3(before[2]) + 0.1f * vec3(before[1]);  // about its x axis
+  const mat4 after =
+      frame(fmt::format("panel.direction={},{},{}", aim.x, aim.y, aim.z), 0).lights.back().world;
+  EXPECT_LT(glm::distance(-vec3(after[2]), glm::normalize(aim)), 1e-5f);
+  EXPECT_LT(glm::distance(vec3(after[0]), vec3(before[0])), 1e-5f);
+  EXPECT_EQ(after[3], before[3]);
+}
+
 TEST_F(Animation, SeveralTracksGoTogether) {
   const RelightAnimation both = read({"bulb.intensity=0:8", "bulb.color=1,0,0", "sun.intensity=1"});
   const scene::LightingState state = both.frame(0.25f);
@@ -142,7 +155,7 @@ TEST_F(Animation, ChangesWhatMovesAndNothingElse) {
 
 TEST_F(Animation, MistakesAreToldWithWhatWouldBeRight) {
   EXPECT_THAT(problem({"blub.intensity=1"}),
-              HasSubstr("no light \"blub\" (its lights: bulb, spot, sun, globe, twin, twin)"));
+              HasSubstr("no light \"blub\" (its lights: bulb, spot, sun, globe, twin, twin, panel)"));
   EXPECT_THAT(problem({"twin.intensity=1"}), HasSubstr("several lights are named \"twin\""));
   EXPECT_THAT(problem({"hot.scale=1"}), AllOf(HasSubstr("no light group \"hot\""), HasSubstr("warm")));
   EXPECT_THAT(problem({"sun.position=1,2,3"}), HasSubstr("a directional light has no position"));

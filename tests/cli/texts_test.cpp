@@ -57,6 +57,22 @@ TEST(Texts, OfASceneNameLampsProfiles) {
   EXPECT_EQ(json_here({"scene", "info", "builtin:gallery1"})["lamp_profiles"].size(), 0u);
 }
 
+TEST(Texts, OfASceneListLampsWithTheirTypes) {
+  const test::TempDir dir;
+  const std::string file = (dir / "lit.ssphh.json").string();
+  write_file(file, R"({"scene": "builtin:box", "lights": [
+      {"name": "panel", "type": "rectangle", "position": [0, 2, 0], "direction": [0, -1, 0], "width": 1, "height": 0.5, "power": 9},
+      {"name": "plate", "type": "disc", "position": [0, 2, 0], "direction": [0, -1, 0], "radius": 0.5}]})");
+  const json::Value lamps = json_here({"scene", "info", file})["lamps"];
+  ASSERT_EQ(lamps.size(), 2u);
+  EXPECT_EQ(lamps[0]["name"], "panel");
+  EXPECT_EQ(lamps[0]["type"], "rectangle");
+  EXPECT_EQ(lamps[1]["type"], "disc");
+  EXPECT_THAT(text_here({"scene", "info", file}),
+              testing::HasSubstr("\nlamps        panel (rectangle), plate (disc)\n"));
+  EXPECT_EQ(json_here({"scene", "info", "builtin:box"})["lamps"].size(), 0u);
+}
+
 TEST(Texts, OfScenes) {
   const json::Value list = json_here({"scene", "list"})["scenes"];
   ASSERT_EQ(list.size(), scene::builtin_scenes().size());

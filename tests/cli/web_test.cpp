@@ -177,6 +177,22 @@ TEST_F(Web, AbsentCamerasAndLightsAreMadeUp) {
   EXPECT_EQ(m["environment_group"].string(), m["lightmap"]["groups"][0]["light_groups"][0].string());
 }
 
+TEST_F(Web, FlatLampsAreSeenAsMeshesOfTheirGroup) {
+  const std::string lit = dir_ / "lit.ssphh.json";
+  write_file(
+      lit, std::string_view(R"({"scene": "builtin:cornell", "lights": [{"name": "panel", "type": "rectangle",
+      "position": [0, 0.5, 0], "direction": [0, -1, 0], "width": 0.4, "height": 0.2, "intensity": 5}]})"));
+  bake(lit, probes_);
+  json_here(line(lit, {"--probes", probes_}));
+  const scene::Scene page = scene_io::load_scene(out_ + "/" + manifest()["scene"].string());
+  EXPECT_TRUE(page.lights.empty());
+  ASSERT_FALSE(page.instances.empty());
+  const scene::Instance& panel = page.instances.back();
+  EXPECT_EQ(scene::light_group(page, panel), "panel");
+  EXPECT_EQ(page.materials[static_cast<std::size_t>(scene::instance_material(page, panel))].emission,
+            vec3(5));
+}
+
 TEST_F(Web, SmoothMetalsDoNotHoldLightThatTheyMirrorAtOneSpot) {
   write_file(dir_ / "floor.obj",
              std::string_view("mtllib floor.mtl\nv 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nusemtl m\nf 4 3 2 1\n"));

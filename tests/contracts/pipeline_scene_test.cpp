@@ -73,8 +73,10 @@ std::vector<Contract> of_loaded_scenes() {
                   },
                   {"UTC offset"}),
       refuses("ReadLightMode", "OfNoText", [] { pipeline::read_light_mode(""); }, {"GROUP=MODE"}),
-      refuses("Aimed", "Nowhere", [] { pipeline::aimed(mat4(1), vec3(0)); }, {"direction"}),
-      refuses("Aimed", "AtNoNumber", [] { pipeline::aimed(mat4(1), vec3(nan)); }, {"direction"}),
+      refuses("Aimed", "Nowhere", [] { pipeline::aimed(scene::LightType::spot, mat4(1), vec3(0)); },
+              {"direction"}),
+      refuses("Aimed", "AtNoNumber", [] { pipeline::aimed(scene::LightType::disc, mat4(1), vec3(nan)); },
+              {"direction"}),
       refuses("BakedSession", "OfOtherGroups",
               [] {
                 const trace::TransportScene source(kept_scene());

@@ -99,6 +99,38 @@ TEST_F(Seen, SphereShinesBeforeWhatStandsBehindIt) {
   }
 }
 
+TEST_F(Seen, FlatLampsShineFromTheirFrontBeforeWhatStandsBehindThem) {
+  for (const bool parallel : {false, true}) {
+    for (const scene::LightType type : {scene::LightType::rectangle, scene::LightType::disc}) {
+      for (const vec3& middle : {vec3(0.2f, 0.1f, -1.6f), vec3(0.1f, -0.2f, -2.6f)}) {
+        const vec3 goes = glm::normalize(vec3(-0.2f, 0.3f, 1));
+        scene::Scene s = black_wall();
+        s.cameras[0].orthographic = parallel;
+        scene::Light& lamp = add_lamp(s, type, middle, goes);
+        lamp.size = {0.9f, 0.5f}, lamp.radius = 0.35f, lamp.intensity = 5;
+        const mat3 axes = glm::mat3_cast(s.nodes.back().local.rotation);
+        const float node_scale = 7;
+        s.nodes.back().local.scale = vec3(node_scale);
+        const auto light = [&](const rays::RayQuery& ray) {
+          const float t = glm::dot(middle - ray.origin, goes) / glm::dot(ray.direction, goes);
+          const vec3 at = (ray.origin + t * ray.direction - middle) * axes;
+          const float wall = wall_distance(ray);
+          // How far outside; a disc is a polygon whose corners and sides stand 0.3 % from the circle
+          const float outside = type == scene::LightType::disc
+                                    ? glm::length(at) - 0.35f
+                                    : std::max(std::abs(at.x) - 0.45f, std::abs(at.y) - 0.25f);
+          if (std::isnan(wall) || std::abs(outside) < 2e-3f || std::abs(t - wall) < 2e-3f) return unsure;
+          return outside < 0 && t < wall ? 5.0f * lamp.color : vec3(0);
+        };
+        expect_seen(draw(s, {.sky = Sky::black}), s, light);
+        // From behind there is nothing of it
+        s.nodes.back().local.rotation = glm::quatLookAt(-goes, vec3(0, 1, 0));
+        EXPECT_THAT(draw(s, {.sky = Sky::black}).pixels, testing::Each(0.0f));
+      }
+    }
+  }
+}
+
 TEST_F(Seen, FromWithinASphereItsFarSideIsSeen) {
   scene::Scene s = black_wall();
   scene::Light& lamp = add_lamp(s, scene::LightType::sphere, {0.3f, 0, -0.2f});

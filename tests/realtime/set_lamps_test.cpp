@@ -86,6 +86,30 @@ TEST_F(SetLamps, GivesThePicturesOfARendererMadeWithThem) {
   EXPECT_EQ(draw(changed, scene_).pixels, own.pixels) << "and back again, factors of before gone";
 }
 
+TEST_F(SetLamps, AFlatLampOfAnotherSizeHasItsOwnLightAndShadows) {
+  // As many shadow maps as before, at other places
+  const auto with_lamp = [&](scene::LightType type, const vec2& size) {
+    scene::Scene scene = scene_;
+    scene::Light& lamp = scene.lights.emplace_back();
+    lamp.name = "flat", lamp.type = type, lamp.size = size, lamp.radius = 0.4f, lamp.intensity = 30;
+    lamp.node = static_cast<int>(scene.nodes.size());
+    scene.nodes.emplace_back().local = {{-2, 2, 0.5f}, glm::angleAxis(-1.2f, vec3(1, 0, 0)), vec3(1)};
+    scene::validate(scene);
+    return scene;
+  };
+  const scene::Scene small = with_lamp(scene::LightType::rectangle, {0.2f, 0.1f}),
+                     large = with_lamp(scene::LightType::rectangle, {1.2f, 0.5f}),
+                     disc = with_lamp(scene::LightType::disc, {});
+  Renderer changed = make(small);
+  const image::Image before = draw(changed, scene_);
+  for (const scene::Scene* other : {&large, &disc, &small}) {
+    changed.set_lamps(*other);
+    Renderer fresh = make(*other);
+    EXPECT_EQ(draw(changed, scene_).pixels, draw(fresh, scene_).pixels);
+    EXPECT_EQ(draw(changed, scene_).pixels == before.pixels, other == &small);
+  }
+}
+
 TEST_F(SetLamps, KeepsTimeEnvironmentAndGlowingProbes) {
   const scene::Scene other = with_other_lamps();
   const auto state = [&](auto& now) {

@@ -158,6 +158,13 @@ inline scene::Scene random_scene(std::uint64_t seed) {
     for (vec3& value : frame.values) value = draw.triple(0.1f, 2);
   }
   s.lights.push_back(fire);
+  for (const auto type : {scene::LightType::rectangle, scene::LightType::disc}) {
+    scene::Light flat = draw.light(type);
+    flat.name = name_of(type), flat.node = add_node("flat ", s.lights.size());
+    flat.profile = {};
+    if (type == scene::LightType::rectangle) flat.size = {draw.number(0.1f, 2), draw.number(0.1f, 2)};
+    s.lights.push_back(flat);
+  }
   return s;
 }
 
@@ -207,6 +214,7 @@ void each_float(scene::Scene& s, const Use& use) {
   });
   each("light ", s.lights, [&](const std::string& at, scene::Light& l) {
     many(at + "color", l.color), use(at + "intensity", l.intensity), use(at + "radius", l.radius);
+    many(at + "size", l.size);
     use(at + "angular_radius", l.angular_radius), use(at + "inner_cone", l.inner_cone);
     use(at + "outer_cone", l.outer_cone), use(at + "range", l.range);
   });

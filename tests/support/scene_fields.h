@@ -142,7 +142,7 @@ class SceneFields {
   }
 
   void members(const std::string& at, scene::Light& light) {
-    auto& [name, group, node, type, color, intensity, radius, emission, angular_radius, inner_cone,
+    auto& [name, group, node, type, color, intensity, radius, size, emission, angular_radius, inner_cone,
            outer_cone, range, profile] = light;
     auto& [frames, rate, start, repeat] = emission;
     visit_(at + "name", name);
@@ -152,6 +152,7 @@ class SceneFields {
     visit_(at + "color", color);
     visit_(at + "intensity", intensity);
     visit_(at + "radius", radius);
+    visit_(at + "size", size);
     visit_(at + "angular_radius", angular_radius);
     visit_(at + "inner_cone", inner_cone);
     visit_(at + "outer_cone", outer_cone);

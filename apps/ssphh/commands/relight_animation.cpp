@@ -221,7 +221,8 @@ scene::LightingState RelightAnimation::frame(float u) const {
     }
     scene::LightState& light = state.lights[target];
     if (track.property == TrackProperty::position) light.world[3] = vec4(value, 1);
-    if (track.property == TrackProperty::direction) light.world = pipeline::aimed(light.world, value);
+    if (track.property == TrackProperty::direction)
+      light.world = pipeline::aimed(scene_.lights[target].type, light.world, value);
     if (track.property == TrackProperty::intensity) light.intensity = value.x;
     if (track.property == TrackProperty::color) light.color = value;
   }

@@ -78,6 +78,7 @@ SceneInfo run_scene_info(const SceneOptions& options, const Control&) {
   info.environment = scene.environment.has_value();
   info.light_groups = scene::light_groups(scene);
   for (const scene::Light& light : scene.lights) {
+    info.lamps.emplace_back(light.name, light.type);
     if (!light.profile.empty()) info.lamp_profiles.push_back({light.name, light.profile.name});
   }
   info.cameras = item_names(scene.cameras);
@@ -94,7 +95,9 @@ json::Value to_json(const SceneInfo& info, const SceneOptions& options) {
   json::Value places = json::Value::array(), bounds;
   for (const scene::ProbePlace& place : info.places)
     places.push_back({{"name", place.name}, {"position", to_json(place.position)}, {"radius", place.radius}});
-  json::Value profiles = json::Value::array();
+  json::Value lamps = json::Value::array(), profiles = json::Value::array();
+  for (const auto& [lamp, type] : info.lamps)
+    lamps.push_back({{"name", lamp}, {"type", std::string(name_of(type))}});
   for (const auto& [lamp, profile] : info.lamp_profiles)
     profiles.push_back({{"lamp", lamp}, {"profile", profile}});
   if (!info.bounds.empty()) bounds = {{"min", to_json(info.bounds.min)}, {"max", to_json(info.bounds.max)}};
@@ -106,6 +109,7 @@ json::Value to_json(const SceneInfo& info, const SceneOptions& options) {
           {"materials", info.materials},
           {"textures", info.textures},
           {"lights", info.lights},
+          {"lamps", std::move(lamps)},
           {"emissive_instances", info.emissive_instances},
           {"glass_sheets", info.glass_sheets},
           {"glass_bodies", info.glass_bodies},
@@ -139,6 +143,11 @@ std::string to_text(const SceneInfo& info, const SceneOptions& options) {
   }
   line("lights", fmt::format("{}, {}, {}", info.lights, counted(info.emissive_instances, "emissive instance"),
                              info.environment ? "environment" : "no environment"));
+  if (!info.lamps.empty()) {
+    std::vector<std::string> lamps;
+    for (const auto& [lamp, type] : info.lamps) lamps.push_back(fmt::format("{} ({})", lamp, name_of(type)));
+    line("lamps", list(lamps));
+  }
   line("light groups", list(info.light_groups));
   if (!info.lamp_profiles.empty()) {
     std::vector<std::string> profiles;

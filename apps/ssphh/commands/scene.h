@@ -37,6 +37,7 @@ struct SceneInfo {
   std::size_t movable = 0;                         ///< nodes that are animated or stand below such
   bool environment = false;                        ///< there is one
   std::vector<std::string> light_groups;           ///< names, in order of first use
+  std::vector<std::pair<std::string, scene::LightType>> lamps;  ///< names and types
   /// Lamps with a photometric profile, and the name of its file.
   std::vector<std::pair<std::string, std::string>> lamp_profiles;
   std::vector<std::string> cameras;       ///< names

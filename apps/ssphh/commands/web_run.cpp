@@ -13,6 +13,7 @@
 #include <ssphh/pipeline/render_scene.h>
 #include <ssphh/pipeline/surface_light.h>
 #include <ssphh/probe_export/target.h>
+#include <ssphh/scene/area_lamp.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/scene_io/gltf_export.h>
 
@@ -304,9 +305,9 @@ WebResult run_web(const WebOptions& o, const Control& control) {
     if (std::abs(time - o.scene.time) < away) away = std::abs(time - o.scene.time), shown = std::move(set);
   }
   take_pictures(stage, shown, views, made, control);
-  FolderFile glb = hashed_file(
-      "scene", "glb",
-      scene_io::export_glb(named_emitters(lightmap::with_lightmap(scene, charts.charts, layout))));
+  FolderFile glb = hashed_file("scene", "glb",
+                               scene_io::export_glb(named_emitters(scene::area_lamps_as_meshes(
+                                   lightmap::with_lightmap(scene, charts.charts, layout), o.scene.time))));
 
   json::Value manifest = json::Value::object();
   manifest["format"] = "ssphh-web", manifest["version"] = 1;

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <ssphh/scene/area_lamp.h>
+
 #include "lamp_profile.h"
 
 namespace ssphh::viewer {
@@ -17,6 +19,8 @@ using enum scene::LightType;
 float& member(LightEdit& light, const std::string& name) {
   Lamp& lamp = light.lamp;
   if (name == "radius") return lamp.radius;
+  if (name == "width") return lamp.size.x;
+  if (name == "height") return lamp.size.y;
   if (name == "range") return lamp.range;
   if (name == "inner cone") return lamp.inner_cone;
   if (name == "outer cone") return lamp.outer_cone;
@@ -24,8 +28,10 @@ float& member(LightEdit& light, const std::string& name) {
   return light.intensity;
 }
 
-/// What stands in a scene for one that is shown: degrees are radians, a diameter is twice a radius.
-float factor_of(const std::string& name) {
+/// What stands in a scene for one that is shown: degrees are radians, a diameter is twice a radius, and the
+/// power of a flat lamp is π times its area and radiance.
+float factor_of(const Lamp& lamp, const std::string& name) {
+  if (name == "power") return 1 / (pi * scene::lamp_area(light_of(lamp, vec3(1), 1)));
   if (name == "inner cone" || name == "outer cone") return pi / 180;
   return name == "diameter" ? pi / 360 : 1;
 }
@@ -45,15 +51,17 @@ std::vector<vec3> circle(const vec3& middle, const vec3& axis, float radius) {
 }  // namespace
 
 Lamp lamp_of(const scene::Light& light) {
-  return {light.name,           light.group,      light.type,       light.radius, light.emission,
-          light.angular_radius, light.inner_cone, light.outer_cone, light.range,  light.profile};
+  return {light.name,       light.group,    light.type,           light.radius,
+          light.size,       light.emission, light.angular_radius, light.inner_cone,
+          light.outer_cone, light.range,    light.profile};
 }
 
 scene::Light light_of(const Lamp& lamp, const vec3& color, float intensity) {
   scene::Light light;
   light.name = lamp.name, light.group = lamp.group, light.type = lamp.type;
   light.color = color, light.intensity = intensity;
-  light.radius = lamp.radius, light.emission = lamp.emission, light.angular_radius = lamp.angular_radius;
+  light.radius = lamp.radius, light.size = lamp.size, light.emission = lamp.emission,
+  light.angular_radius = lamp.angular_radius;
   light.inner_cone = lamp.inner_cone, light.outer_cone = lamp.outer_cone, light.range = lamp.range;
   light.profile = lamp.profile;
   return light;
@@ -62,13 +70,23 @@ scene::Light light_of(const Lamp& lamp, const vec3& color, float intensity) {
 std::vector<LampNumber> lamp_numbers(const LightEdit& light) {
   const scene::LightType type = light.lamp.type;
   // In the order of the types
-  constexpr const char* units[] = {"W/sr", "W/sr", "W/m²", "W/(sr m²)", "times"};
+  constexpr const char* units[] = {"W/sr", "W/sr", "W/m²", "W/(sr m²)", "times", "W/(sr m²)", "W/(sr m²)"};
   std::vector<LampNumber> numbers = {
       {"intensity", units[static_cast<int>(type)],
-       "Point and spot: power per solid angle. Sun: irradiance of a plane that faces it. Sphere: radiance of "
-       "its surface. SPHL: a factor on its emission.",
+       "Point and spot: power per solid angle. Sun: irradiance of a plane that faces it. Sphere, "
+       "rectangle and disc: radiance of the surface. SPHL: a factor on its emission.",
        0.001f, 0, 0, 1e6f}};
-  if (type == sphere || type == sphl)
+  if (scene::is_area_lamp(type))
+    numbers.push_back({"power", "W",
+                       "All light of a white lamp, which sets the intensity: π times area times radiance.",
+                       0.001f, 0, 0, 1e7f});
+  if (type == rectangle) {
+    numbers.push_back({"width", "m",
+                       "Along the lamp's x axis. A larger lamp of one intensity gives more light.", 0.001f, 0,
+                       0.001f, 100});
+    numbers.push_back({"height", "m", "Along the lamp's y axis.", 0.001f, 0, 0.001f, 100});
+  }
+  if (type == sphere || type == sphl || type == disc)
     numbers.push_back({"radius", "m", "Larger lamps have softer shadows.", 0.001f, 0, 0.001f, 100});
   if (type == spot) {
     numbers.push_back({"outer cone", "°", "From the axis to where the light ends.", 0.1f, 0, 0.5f, 90});
@@ -83,7 +101,7 @@ std::vector<LampNumber> lamp_numbers(const LightEdit& light) {
                        0.01f, 0, 0, 180});
   LightEdit read = light;
   for (LampNumber& number : numbers) {
-    number.value = member(read, number.name) / factor_of(number.name);
+    number.value = member(read, number.name) / factor_of(light.lamp, number.name);
     if (number.name == std::string("inner cone")) number.high = light.lamp.outer_cone * 180 / pi;
   }
   return numbers;
@@ -102,7 +120,7 @@ void set_lamp_number(LightEdit& light, const std::string& name, float value) {
   if (!(value >= number->low && value <= number->high * (1 + 1e-6f)))
     throw Error(light.lamp.name, fmt::format("{} {:g} {} is not within {:g} to {:g} {}", name, value,
                                              number->unit, number->low, number->high, number->unit));
-  member(light, name) = value * factor_of(name);
+  member(light, name) = value * factor_of(light.lamp, name);
   Lamp& lamp = light.lamp;
   lamp.inner_cone = std::min(lamp.inner_cone, lamp.outer_cone);
 }
@@ -123,6 +141,11 @@ LightEdit new_lamp(scene::LightType type, const std::string& name, const vec3& p
   if (type == sphl) {
     light.lamp.radius = 0.05f * distance;
     light.lamp.emission.frames = {scene::lobe_emission(scene::Lobe::beam, {0, 0, -1}, glm::radians(40.0f))};
+  }
+  if (scene::is_area_lamp(type)) {
+    if (type == rectangle) light.lamp.size = distance * vec2(0.3f, 0.15f);
+    if (type == disc) light.lamp.radius = 0.1f * distance;
+    light.intensity *= 1 / scene::lamp_area(light_of(light.lamp, vec3(1), 1));
   }
   if (type == spot) light.lamp.inner_cone = glm::radians(30.0f), light.lamp.outer_cone = glm::radians(40.0f);
   const vec3 direction = type == directional ? vec3(-0.4f, -1, -0.3f) : vec3(0, -1, 0);
@@ -152,7 +175,7 @@ mat4 with_direction(const mat4& world, const vec3& direction) {
 
 bool has_direction(scene::LightType type, const scene::LampProfile& profile) {
   if (type == point) return !profile.empty();
-  return type == spot || type == directional || type == sphl;
+  return type == spot || type == directional || type == sphl || scene::is_area_lamp(type);
 }
 
 bool has_place(scene::LightType type) {
@@ -170,6 +193,12 @@ std::vector<std::vector<vec3>> lamp_lines(const Lamp& lamp, const mat4& world, f
       lines.push_back(circle(at + length * std::cos(cone) * along, along, length * std::sin(cone)));
     }
     for (const std::size_t i : {0u, 12u, 24u, 36u}) lines.push_back({at, lines[1][i]});
+  }
+  if (scene::is_area_lamp(lamp.type)) {
+    const mat4 pose = scene::area_lamp_pose(world);
+    const vec3 x = 0.5f * lamp.size.x * vec3(pose[0]), y = 0.5f * lamp.size.y * vec3(pose[1]);
+    if (lamp.type == rectangle) lines.push_back({at - x - y, at + x - y, at + x + y, at - x + y, at - x - y});
+    if (lamp.type == disc) lines.push_back(circle(at, along, lamp.radius));
   }
   if (!lamp.profile.empty()) {
     const mat3 axes = scene::emission_axes(world);

@@ -12,7 +12,8 @@ namespace ssphh::viewer {
 struct Lamp {
   std::string name, group;  ///< group empty: the name
   scene::LightType type = scene::LightType::point;
-  float radius = 0;  ///< as those of scene::Light
+  float radius = 0;  ///< this and what follows as those of scene::Light
+  vec2 size{0};
   scene::Emission emission;
   float angular_radius = 0;
   float inner_cone = 0, outer_cone = pi / 4;

@@ -18,23 +18,6 @@ void set_profile(LightEdit& light, const scene::LampProfile& profile, const mat4
   lamp.profile = profile;
 }
 
-float turn_of(const mat4& world) {
-  const mat3 axes = scene::emission_axes(world);
-  const Frame frame = Frame::around(axes[2]);
-  return std::atan2(glm::dot(axes[0], frame.y), glm::dot(axes[0], frame.x));
-}
-
-mat4 with_turn(const mat4& world, float turn) {
-  const mat4 straight = with_direction(world, light_direction(world));
-  const float c = std::cos(turn), s = std::sin(turn);
-  return {c * straight[0] + s * straight[1], c * straight[1] - s * straight[0], straight[2], straight[3]};
-}
-
-mat4 aimed(const Lamp& lamp, const mat4& world, const vec3& direction) {
-  const mat4 straight = with_direction(world, direction);
-  return lamp.profile.empty() ? straight : with_turn(straight, turn_of(world));
-}
-
 std::vector<vec3> profile_curve(const scene::LampProfile& profile, float turn) {
   constexpr int steps = 180;
   const scene::PhotometricTable& table = *profile.table;

@@ -117,7 +117,11 @@ void add_lights(json::Value& overlay, const Document& document, bool sun_of_sky)
       place(entry, states[i].world, turned);
     entry["color"] = vector(states[i].color);
     entry["intensity"] = number(states[i].intensity);
-    if (lamp.type == sphere || lamp.type == sphl) entry["radius"] = number(lamp.radius);
+    if (lamp.type == sphere || lamp.type == sphl || lamp.type == disc) entry["radius"] = number(lamp.radius);
+    if (lamp.type == rectangle) {
+      entry["width"] = number(lamp.size.x);
+      entry["height"] = number(lamp.size.y);
+    }
     if (lamp.type == sphl) entry["emission"] = emission(lamp.emission);
     if (lamp.type == directional) entry["angular_diameter_degrees"] = degrees(2 * lamp.angular_radius);
     if (lamp.type == spot) {

@@ -8,6 +8,7 @@
 #include <imgui.h>
 
 #include "app.h"
+#include "model/lamp_aim.h"
 #include "model/lamp_color.h"
 #include "model/lamp_profile.h"
 #include "panels.h"
@@ -17,8 +18,13 @@ namespace ssphh::viewer {
 namespace {
 
 /// Of the types of lamps, in their order.
-constexpr const char* type_names[] = {"point, W/sr", "spot, W/sr", "directional, W/m²", "sphere, W/(sr m²)",
-                                      "SPHL, times its emission"};
+constexpr const char* type_names[] = {"point, W/sr",
+                                      "spot, W/sr",
+                                      "directional, W/m²",
+                                      "sphere, W/(sr m²)",
+                                      "SPHL, times its emission",
+                                      "rectangle, W/(sr m²)",
+                                      "disc, W/(sr m²)"};
 
 /// The same colour by its digits, and by its temperature.
 void draw_color_names(App& app, std::size_t i) {
@@ -176,7 +182,7 @@ void draw_lamp(App& app) {
       app.edit("turn " + light.name,
                [&](Edits& e) { e.lights[i].world = aimed(now.lamp, world, direction); });
     seal_after_edit(app);
-    if (!light.profile.empty()) {
+    if (has_turn(now.lamp)) {
       row("turn");
       const float before = glm::degrees(turn_of(world));
       float turn = before;
@@ -185,7 +191,7 @@ void draw_lamp(App& app) {
         app.edit("turn " + light.name,
                  [&](Edits& e) { e.lights[i].world = with_turn(world, glm::radians(turn)); });
       seal_after_edit(app);
-      tip("of the profile about its aim, counter-clockwise seen from behind the lamp");
+      tip("about its aim, counter-clockwise seen from behind the lamp");
     }
     if (ImGui::Button(app.aim_mode ? "click a surface …" : "Aim (X)")) app.aim_mode = !app.aim_mode;
     tip(has_place(light.type) ? "at what you click next; the amber handle in the picture aims, too"

@@ -75,10 +75,9 @@ void draw_groups(App& app) {
 
 void draw_lamp_kinds(App& app) {
   constexpr std::pair<const char*, scene::LightType> kinds[] = {
-      {"Point", scene::LightType::point},
-      {"Spot, with a cone", scene::LightType::spot},
-      {"Sun", scene::LightType::directional},
-      {"Sphere", scene::LightType::sphere},
+      {"Point", scene::LightType::point},           {"Spot, with a cone", scene::LightType::spot},
+      {"Sun", scene::LightType::directional},       {"Sphere", scene::LightType::sphere},
+      {"Rectangle", scene::LightType::rectangle},   {"Disc", scene::LightType::disc},
       {"SPHL, a soft beam", scene::LightType::sphl}};
   for (const auto& [name, type] : kinds) {
     if (ImGui::MenuItem(name)) attempt(app, [&app, type = type] { app.add_lamp(type); });

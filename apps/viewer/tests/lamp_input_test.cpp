@@ -30,11 +30,11 @@ class LampInput : public PanelStage {
 };
 
 TEST_F(LampInput, EveryKindIsAddedInThePictureAndSelected) {
-  const std::pair<const char*, scene::LightType> kinds[] = {{"Point", scene::LightType::point},
-                                                            {"Spot, with a cone", scene::LightType::spot},
-                                                            {"Sun", scene::LightType::directional},
-                                                            {"Sphere", scene::LightType::sphere},
-                                                            {"SPHL, a soft beam", scene::LightType::sphl}};
+  const std::pair<const char*, scene::LightType> kinds[] = {
+      {"Point", scene::LightType::point},           {"Spot, with a cone", scene::LightType::spot},
+      {"Sun", scene::LightType::directional},       {"Sphere", scene::LightType::sphere},
+      {"Rectangle", scene::LightType::rectangle},   {"Disc", scene::LightType::disc},
+      {"SPHL, a soft beam", scene::LightType::sphl}};
   const std::size_t before = lights().size();
   for (const auto& [name, type] : kinds) {
     add(name);
@@ -48,11 +48,37 @@ TEST_F(LampInput, EveryKindIsAddedInThePictureAndSelected) {
     EXPECT_NEAR(seen.y, 0.5f, 0.1f) << name;
     EXPECT_TRUE(posed().visible(app().view.eye, at)) << "before the wall, not behind it";
   }
-  EXPECT_EQ(lights().size(), before + 5);
+  EXPECT_EQ(lights().size(), before + std::size(kinds));
   press({GLFW_KEY_Z}, true);
-  EXPECT_EQ(lights().size(), before + 4);
+  EXPECT_EQ(lights().size(), before + std::size(kinds) - 1);
   press({GLFW_KEY_Y}, true);
-  EXPECT_EQ(lights().size(), before + 5);
+  EXPECT_EQ(lights().size(), before + std::size(kinds));
+}
+
+TEST_F(LampInput, ARectangleIsSizedDimmedTurnedAndAimedByHand) {
+  add("Rectangle");
+  const LightEdit before = chosen();
+  pull("width", 20);
+  EXPECT_GT(chosen().lamp.size.x, before.lamp.size.x);
+  EXPECT_EQ(chosen().lamp.size.y, before.lamp.size.y);
+  EXPECT_EQ(chosen().intensity, before.intensity) << "as bright, and more light";
+  EXPECT_EQ(app().document.scene->lights.back().size, chosen().lamp.size) << "renderers have it";
+  pull("power", -10);
+  EXPECT_LT(chosen().intensity, before.intensity);
+  press({GLFW_KEY_Z}, true);
+  EXPECT_EQ(chosen().intensity, before.intensity);
+  press({GLFW_KEY_Z}, true);
+  EXPECT_EQ(chosen(), before) << "each a step of undo";
+
+  app().turn_selected({0.4f, -1, 0.05f});
+  EXPECT_LT(glm::distance(direction(), glm::normalize(vec3(0.4f, -1, 0.05f))), 1e-5f);
+  const vec3 side((*chosen().world)[0]);
+  app().turn_selected({0.4f, -1, -0.05f});
+  EXPECT_LT(glm::distance(vec3((*chosen().world)[0]), side), 0.1f) << "it does not spin";
+  const mat4 aimed = *chosen().world;
+  pull("turn", 30);
+  EXPECT_LT(glm::distance(vec3((*chosen().world)[2]), vec3(aimed[2])), 1e-5f);
+  EXPECT_GT(glm::distance(vec3((*chosen().world)[0]), vec3(aimed[0])), 0.05f);
 }
 
 TEST_F(LampInput, KeysDuplicateDeleteAndUndoKeepsTheSelection) {

@@ -6,6 +6,7 @@
 
 #include <ssphh/core/file.h>
 
+#include "model/lamp_aim.h"
 #include "panel_stage.h"
 #include "temp_dir.h"
 

@@ -39,6 +39,8 @@ TEST(Lamp, HasTheNumbersOfItsKind) {
   EXPECT_THAT(names_of_numbers(directional), ElementsAre("intensity", "diameter"));
   EXPECT_THAT(names_of_numbers(sphere), ElementsAre("intensity", "radius"));
   EXPECT_THAT(names_of_numbers(sphl), ElementsAre("intensity", "radius"));
+  EXPECT_THAT(names_of_numbers(rectangle), ElementsAre("intensity", "power", "width", "height"));
+  EXPECT_THAT(names_of_numbers(disc), ElementsAre("intensity", "power", "radius"));
 }
 
 TEST(Lamp, NumbersBeyondTheirBoundsAreRefusedWithASentence) {
@@ -54,7 +56,7 @@ TEST(Lamp, NumbersBeyondTheirBoundsAreRefusedWithASentence) {
   set_lamp_number(lamp, "outer cone", 20);
   EXPECT_FLOAT_EQ(lamp.lamp.outer_cone, glm::radians(20.0f));
   EXPECT_FLOAT_EQ(lamp.lamp.inner_cone, glm::radians(20.0f)) << "never the wider one";
-  for (const scene::LightType type : {point, spot, directional, sphere, sphl}) {
+  for (const scene::LightType type : {point, spot, directional, sphere, sphl, rectangle, disc}) {
     LightEdit any = new_lamp(type, "x", {1, 2, 3}, 2, 1);
     for (std::size_t i = 0; i < lamp_numbers(any).size(); ++i) {
       const LampNumber number = lamp_numbers(any)[i];
@@ -76,6 +78,30 @@ TEST(Lamp, ANewOneLightsAWallAtItsDistanceAlikeWhateverItsKind) {
   EXPECT_NEAR(beam.intensity * scene::eval_intensity(beam.lamp.emission.frames[0], {0, 0, -1}).x / 4, pi,
               0.2f);
   EXPECT_EQ(light_direction(*beam.world), vec3(0, -1, 0));
+  const LightEdit panel = new_lamp(rectangle, "x", {}, 2, -1), plate = new_lamp(disc, "x", {}, 2, -1);
+  EXPECT_NEAR(panel.intensity * panel.lamp.size.x * panel.lamp.size.y / 4, pi, 1e-4f);
+  EXPECT_NEAR(plate.intensity * pi * plate.lamp.radius * plate.lamp.radius / 4, pi, 1e-4f);
+  EXPECT_EQ(light_direction(*panel.world), vec3(0, -1, 0));
+}
+
+TEST(Lamp, PowerOfAFlatOneIsPiTimesAreaTimesRadiance) {
+  const auto number = [](const LightEdit& lamp, const std::string& name) {
+    for (const LampNumber& n : lamp_numbers(lamp))
+      if (n.name == name) return n.value;
+    return -1.0f;
+  };
+  LightEdit panel = new_lamp(rectangle, "x", {}, 2, -1);
+  set_lamp_number(panel, "width", 2);
+  set_lamp_number(panel, "height", 0.5f);
+  set_lamp_number(panel, "power", 30);
+  EXPECT_FLOAT_EQ(panel.intensity, 30 / pi);
+  set_lamp_number(panel, "width", 4);
+  EXPECT_FLOAT_EQ(panel.intensity, 30 / pi) << "a larger one is as bright, and gives more light";
+  EXPECT_FLOAT_EQ(number(panel, "power"), 60);
+  LightEdit plate = new_lamp(disc, "x", {}, 2, -1);
+  set_lamp_number(plate, "radius", 2);
+  set_lamp_number(plate, "intensity", 3);
+  EXPECT_FLOAT_EQ(number(plate, "power"), 12 * pi * pi);
 }
 
 TEST(Lamp, LinesShowConesRadiusAndRange) {
@@ -92,6 +118,19 @@ TEST(Lamp, LinesShowConesRadiusAndRange) {
   EXPECT_TRUE(lamp_lines(new_lamp(point, "x", {}, 1, 0).lamp, mat4(1), 2).empty());
   EXPECT_EQ(lamp_lines(new_lamp(sphere, "x", {}, 1, 0).lamp, mat4(1), 2).size(), 3u);
   EXPECT_EQ(lamp_lines(new_lamp(directional, "x", {}, 1, 0).lamp, mat4(1), 2).size(), 1u);
+  LightEdit panel = new_lamp(rectangle, "x", {1, 2, 3}, 1, 0);
+  panel.lamp.size = {2, 1};
+  const auto outline = lamp_lines(panel.lamp, with_position(mat4(3), {1, 2, 3}), 2);
+  ASSERT_EQ(outline.size(), 2u) << "its direction, and its sides";
+  EXPECT_EQ(outline[1],
+            (std::vector<vec3>{{0, 1.5f, 3}, {2, 1.5f, 3}, {2, 2.5f, 3}, {0, 2.5f, 3}, {0, 1.5f, 3}}));
+  const LightEdit plate = new_lamp(disc, "x", {1, 2, 3}, 1, 0);
+  const auto rim = lamp_lines(plate.lamp, *plate.world, 2);
+  ASSERT_EQ(rim.size(), 2u);
+  for (const vec3& p : rim[1]) {
+    EXPECT_NEAR(glm::distance(p, vec3(1, 2, 3)), plate.lamp.radius, 1e-6f);
+    EXPECT_NEAR(p.y, 2, 1e-6f);
+  }
 }
 
 TEST(Lamp, ABallIsMetOrPassedNearest) {

@@ -9,6 +9,7 @@
 #include <ssphh/scene_io/gltf_export.h>
 #include <ssphh/scene_io/load.h>
 
+#include "model/lamp_aim.h"
 #include "model/sky_edit.h"
 #include "temp_dir.h"
 
@@ -38,6 +39,7 @@ class OverlayFile : public testing::Test {
       EXPECT_EQ(x, y);
       EXPECT_EQ(light.color, found->color);
       EXPECT_EQ(light.intensity, found->intensity);
+      EXPECT_EQ(light.size, found->size);
       const mat4 at = scene::world_matrix(a, light.node, 0.4f),
                  there = scene::world_matrix(b, found->node, 0.4f);
       EXPECT_EQ(light_position(at), light_position(there));
@@ -68,7 +70,8 @@ TEST_F(OverlayFile, LampsOfAllKindsComeBackTheSame) {
   document.edit("add", [](Edits& e) {
     for (const scene::LightType type :
          {scene::LightType::point, scene::LightType::spot, scene::LightType::directional,
-          scene::LightType::sphere, scene::LightType::sphl}) {
+          scene::LightType::sphere, scene::LightType::sphl, scene::LightType::rectangle,
+          scene::LightType::disc}) {
       e.lights.push_back(new_lamp(type, std::string(name_of(type)), {1.1f, 2, 0.3f}, 1.7f, -0.3f));
       e.lights.back().world = with_direction(*e.lights.back().world, {0.3f, -1, 0.2f});
       e.lights.back().color = {1, 0.7f, 0.1f};
@@ -76,6 +79,9 @@ TEST_F(OverlayFile, LampsOfAllKindsComeBackTheSame) {
     set_lamp_number(e.lights[1], "range", 7.3f);
     set_lamp_number(e.lights[2], "outer cone", 23.4f);
     e.lights[4].on = false;
+    e.lights[6].world = with_turn(*e.lights[6].world, 0.7f);
+    set_lamp_number(e.lights[6], "width", 1.37f);
+    set_lamp_number(e.lights[7], "power", 41.7f);
     const scene::LampProfile profile{
         "a \"lamp\"", std::make_shared<const scene::PhotometricTable>(scene::PhotometricTable{
                           scene::Photometry::c, {0, 30.3f, 90}, {0, 90, 360}, {9, 4, 1, 9, 5, 0, 9, 4, 1}})};

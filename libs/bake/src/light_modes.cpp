@@ -5,6 +5,7 @@
 #include <ssphh/bake/light_modes.h>
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/require.h>
+#include <ssphh/scene/area_lamp.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/transport/projection.h>
 
@@ -15,7 +16,7 @@ namespace {
 constexpr float smallest_soft_disc = 0.05f;
 
 bool casts_sharp_shadows(const scene::Light& light) {
-  if (light.type == scene::LightType::sphere) return false;
+  if (light.type == scene::LightType::sphere || scene::is_area_lamp(light.type)) return false;
   return light.type != scene::LightType::directional || light.angular_radius < smallest_soft_disc;
 }
 

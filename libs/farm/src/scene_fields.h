@@ -45,8 +45,9 @@ void fields(auto& io, auto& t, const scene::PhotometricTable*) {
   io.choice(t.type, scene::Photometry::a), io(t.polar), io(t.turn), io(t.candela);
 }
 void fields(auto& io, auto& l, const scene::Light*) {
-  io(l.name), io(l.group), io(l.node), io.choice(l.type, scene::LightType::sphl), io(l.color);
-  io(l.intensity), io(l.radius), io(l.angular_radius), io(l.inner_cone), io(l.outer_cone), io(l.range);
+  io(l.name), io(l.group), io(l.node), io.choice(l.type, scene::LightType::disc), io(l.color);
+  io(l.intensity), io(l.radius), io(l.size), io(l.angular_radius), io(l.inner_cone), io(l.outer_cone),
+      io(l.range);
   io(l.emission), io(l.profile.name), io(l.profile.table);
 }
 void fields(auto& io, auto& e, const scene::Environment*) {

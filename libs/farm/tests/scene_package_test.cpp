@@ -62,6 +62,18 @@ TEST(ScenePackage, FieldsThatNoBuiltinSceneHasComeBack) {
   expect_same(scene);
 }
 
+TEST(ScenePackage, FlatLampsComeBackAndTheirSizeIsOfTheKey) {
+  scene::Scene scene = scene::make_builtin("gallery1");
+  scene.lights[0].type = scene::LightType::rectangle, scene.lights[0].size = {0.5f, 0.25f};
+  scene.lights[1].type = scene::LightType::disc, scene.lights[1].radius = 0.5f;
+  scene::validate(scene);
+  EXPECT_EQ(unpacked(pack_scene(scene)).lights[0].size, vec2(0.5f, 0.25f));
+  expect_same(scene);
+  const auto manifest = pack_scene(scene).manifest;
+  scene.lights[0].size.y = 0.5f;
+  EXPECT_NE(pack_scene(scene).manifest, manifest);
+}
+
 TEST(ScenePackage, ProfilesOfLampsComeBackAndBrokenOnesAreRefused) {
   scene::Scene scene = scene::make_builtin("gallery1");
   scene::PhotometricTable table{scene::Photometry::b, {45, 90, 135}, {-30, 60}, {1, 2, 3, 4, 5, 6}};

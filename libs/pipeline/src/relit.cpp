@@ -1,13 +1,15 @@
 #include <ssphh/core/require.h>
 #include <ssphh/pipeline/relit.h>
+#include <ssphh/scene/area_lamp.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/scene/with_lighting.h>
 #include <ssphh/transport/session_sets.h>
 
 namespace ssphh::pipeline {
 
-mat4 aimed(const mat4& world, const vec3& direction) {
+mat4 aimed(scene::LightType type, const mat4& world, const vec3& direction) {
   require(is_finite(direction) && direction != vec3(0), "aim of a light", "its direction leads nowhere");
+  if (scene::is_area_lamp(type)) return scene::aimed_area_lamp(world, direction);
   const Frame frame = Frame::around(-glm::normalize(direction));
   return {vec4(frame.x, 0), vec4(frame.y, 0), vec4(frame.z, 0), world[3]};
 }

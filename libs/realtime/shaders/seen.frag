@@ -1,5 +1,6 @@
 #version 450 core
-// Emitters that are no surfaces, as the eye sees them: ENVIRONMENT and DISC behind everything, SPHERE before it.
+// Emitters that are no surfaces, as the eye sees them: ENVIRONMENT and DISC behind everything, SPHERE and flat lamps (MESH)
+// before it.
 #include "gbuffer_read.glsl"
 #include "lights.glsl"
 
@@ -20,6 +21,22 @@ void main() {
   vec3 off = d - emitter.place.xyz;
   float s = sin(emitter.place.w);
   if (s > 0 && dot(off, off) <= 2 * (1 - sqrt(1 - s * s))) color.rgb = emitter.light.rgb / (PI * s * s);
+#elif defined(MESH)
+  // The front of a plane, within reach of the lamp's middle
+  vec3 n = emitter.samples[0].normal.xyz, c = emitter.place.xyz - o;
+  float facing = -dot(d, n), t = -dot(c, n) / facing;
+  vec3 at = t * d - c;
+  if (facing <= 0 || t < 0 || dot(at, at) > 1.001 * emitter.place.w * emitter.place.w) return;
+  float depth = depth_at(ivec2(pixel));
+  if (depth > 0 && length(position_at(pixel, depth) - o) <= t) return;
+  for (int k = 0; k < emitter.count.x; ++k) {
+    vec3 p = emitter.corners[3 * k].xyz - emitter.place.xyz, q = emitter.corners[3 * k + 1].xyz - emitter.place.xyz,
+         r = emitter.corners[3 * k + 2].xyz - emitter.place.xyz;
+    if (dot(cross(q - p, at - p), n) >= 0 && dot(cross(r - q, at - q), n) >= 0 && dot(cross(p - r, at - r), n) >= 0) {
+      color.rgb = emitter.light.rgb;
+      return;
+    }
+  }
 #else
   vec3 c = emitter.place.xyz - o;
   float r = emitter.place.w, along = dot(c, d);

@@ -199,7 +199,7 @@ void Renderer::Data::draw_seen() {
   lights.bind();
   for (const Lights::Lit& lit : lights.lit()) {
     if (!lit.seen) continue;
-    const bool behind = lit.kind != EmitterKind::sphere;
+    const bool behind = lit.kind != EmitterKind::sphere && lit.kind != EmitterKind::mesh;
     if (behind && frame_settings.sky == Sky::black) continue;
     lights.bind_emitter(lit);
     if (lit.kind == EmitterKind::environment) {

@@ -7,27 +7,14 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/error.h>
+#include <ssphh/scene/area_lamp.h>
 #include <ssphh/scene/query.h>
-#include <ssphh/shading/mesh_view.h>
-
-#include "mesh_pieces.h"
 
 namespace ssphh::realtime {
 namespace {
 
 constexpr int sphere_points = 8;
 constexpr float black = 0;
-/// Of a glowing mesh's points above it, in roots of its area.
-constexpr float most_lift = 0.05f;
-
-float mesh_area(const scene::Mesh& mesh, const mat4& world) {
-  float area = 0;
-  const auto corner = [&](unsigned i) { return vec3(world * vec4(mesh.positions[i], 1)); };
-  for (const uvec3& t : mesh.triangles)
-    area += 0.5f * glm::length(glm::cross(corner(t.y) - corner(t.x), corner(t.z) - corner(t.x)));
-  return area;
-}
-
 }  // namespace
 
 Lights::Lights(const scene::Scene& scene, float time, const std::vector<mat4>& world,
@@ -36,8 +23,8 @@ Lights::Lights(const scene::Scene& scene, float time, const std::vector<mat4>& w
   const std::vector<std::string> groups = scene::light_groups(scene);
   scales_.assign(groups.size(), vec3(1));
   groups_ = groups;
-  add_lights(scene, time, world, groups, most_sun_parts(scene, params));
-  add_meshes(scene, world, groups, std::clamp(params.area_samples, 1, max_area_samples));
+  add_lights(scene, time, world, groups, params);
+  add_meshes(scene, world, groups, params);
   add_environment(scene, groups, std::clamp(params.environment_samples, 1, max_area_samples), before);
   if (sun_slots_ + sky_slots_ > max_parallel_maps)
     throw Error("real-time renderer", fmt::format("the lights need {} parallel shadow maps, {} is the most",
@@ -64,7 +51,8 @@ Lights::Lights(const scene::Scene& scene, float time, const std::vector<mat4>& w
 }
 
 void Lights::add_lights(const scene::Scene& scene, float time, const std::vector<mat4>& world,
-                        const std::vector<std::string>& groups, int most_parts) {
+                        const std::vector<std::string>& groups, const RendererParams& params) {
+  const int most_parts = most_sun_parts(scene, params);
   for (const scene::Light& light : scene.lights) {
     lights_.push_back(light);
     states_.push_back({node_matrix(world, light.node), light.color, light.intensity,
@@ -80,6 +68,8 @@ void Lights::add_lights(const scene::Scene& scene, float time, const std::vector
       e.more.z = 1;
       source.first_map = area_slots_;
       area_slots_ += sphere_points;
+    } else if (scene::lamp_area(light) > 0) {
+      shape_as_mesh(source, e, scene::area_lamp_mesh(light), mat4(1), true, params);
     } else if (light.type == scene::LightType::directional) {
       const bool disc = light.angular_radius > 0;
       source.parts = disc_parts(light.angular_radius, most_parts);
@@ -93,40 +83,6 @@ void Lights::add_lights(const scene::Scene& scene, float time, const std::vector
       source.first_map = lamp_slots_++;
       e.count.y = profiles_.layer(light) + 1;
     }
-    emitters_.push_back(e);
-    sources_.push_back(std::move(source));
-  }
-}
-
-void Lights::add_meshes(const scene::Scene& scene, const std::vector<mat4>& world,
-                        const std::vector<std::string>& groups, int samples) {
-  for (const scene::Instance& instance : scene.instances) {
-    const int material = scene::instance_material(scene, instance);
-    if (material < 0 || instance.mesh < 0) continue;
-    const scene::Material& m = scene.materials[material];
-    if (m.unlit || !(max_component(m.emission) > black)) continue;
-    const scene::Mesh& mesh = scene.meshes[instance.mesh];
-    const mat4& placed = node_matrix(world, instance.node);
-    Source source;
-    source.points = spread_points(mesh, placed, samples);
-    if (source.points.empty()) continue;
-    source.emitter = static_cast<int>(emitters_.size());
-    source.group = scene::light_group_index(groups, scene::light_group(scene, instance));
-    source.node = instance.node;
-    source.radiance = mean_emission(scene, m);
-    source.first_map = area_slots_;
-    GpuEmitter e;
-    e.items = ivec4(static_cast<int>(EmitterKind::mesh), 0, static_cast<int>(source.points.size()), 0);
-    e.more.y = m.double_sided ? 1 : 0;
-    e.more.z = mesh_area(mesh, placed);
-    const bool even = m.emission_texture.texture < 0 && m.alpha_mode == scene::AlphaMode::opaque;
-    if (even && mesh.triangles.size() <= shading::MeshView::max_triangles) {
-      for (const uvec3& t : mesh.triangles) {
-        for (int c = 0; c < 3; ++c) source.corners.push_back(mesh.positions[t[c]]);
-      }
-      e.count.x = static_cast<int>(mesh.triangles.size());
-    }
-    area_slots_ += static_cast<int>(source.points.size());
     emitters_.push_back(e);
     sources_.push_back(std::move(source));
   }
@@ -237,8 +193,9 @@ void Lights::place(Source& source, const mat4& world) {
   emitters_changed_ = true;
   GpuEmitter& e = emitters_[source.emitter];
   if (!source.points.empty()) {
-    place_samples(source, world);
-    if (source.light >= 0) e.place = vec4(vec3(world[3]), lights_[source.light].radius);
+    const bool flat = source.light >= 0 && scene::is_area_lamp(lights_[source.light].type);
+    place_samples(source, flat ? scene::area_lamp_pose(world) : world);
+    if (source.light >= 0) e.place = vec4(vec3(world[3]), scene::lamp_reach(lights_[source.light]));
     return;
   }
   if (source.light < 0) return;
@@ -269,30 +226,6 @@ void Lights::place(Source& source, const mat4& world) {
     const bool lit = glm::dot(view.forward, -axis) > std::cos(std::min(light.outer_cone + 0.956f, pi));
     lamps_.set_view(6 * source.first_map + face, view, !spot || lit);
   }
-}
-
-void Lights::place_samples(Source& source, const mat4& world) {
-  GpuEmitter& e = emitters_[source.emitter];
-  const mat3 to_normal = glm::transpose(glm::inverse(mat3(world)));
-  // Off the surface, or its own triangles would stand in the way; a small lamp of a wide scene stays where it
-  // is.
-  const float lift = std::min(2 * near_, most_lift * std::sqrt(e.more.z));
-  for (std::size_t i = 0; i < source.points.size(); ++i) {
-    const AreaPoint& p = source.points[i];
-    const bool directed = p.normal != vec3(0);
-    const vec3 normal = directed ? glm::normalize(to_normal * p.normal) : vec3(0);
-    // Sphere lights are not scaled by their node
-    const vec3 position =
-        directed ? vec3(world * vec4(p.position, 1)) + lift * normal : vec3(world[3]) + p.position;
-    const int slot = source.first_map + static_cast<int>(i);
-    e.samples[i] = {vec4(position, p.share), vec4(normal, static_cast<float>(slot)), vec4(0)};
-    for (int face = 0; face < 6; ++face) {
-      const MapView view = cube_view(position, face, near_);
-      const bool behind = directed && e.more.y == 0 && glm::dot(view.forward, normal) < -0.82f;
-      areas_.set_view(6 * slot + face, view, !behind);
-    }
-  }
-  for (std::size_t i = 0; i < source.corners.size(); ++i) e.corners[i] = world * vec4(source.corners[i], 1);
 }
 
 void Lights::set_colors() {
@@ -354,10 +287,11 @@ void Lights::list_lit() {
     const GpuEmitter& e = emitters_[i];
     if (!(max_component(vec3(e.light)) > black)) continue;
     const auto kind = static_cast<EmitterKind>(e.items.x);
-    lit_.push_back(
-        {kind, static_cast<int>(i),
-         kind == EmitterKind::disc || kind == EmitterKind::sphere || kind == EmitterKind::environment,
-         !source_of[i] || source_of[i]->lights(), source_of[i] && source_of[i]->left_out});
+    lit_.push_back({kind, static_cast<int>(i),
+                    kind == EmitterKind::disc || kind == EmitterKind::sphere ||
+                        kind == EmitterKind::environment ||
+                        (kind == EmitterKind::mesh && source_of[i]->light >= 0),
+                    !source_of[i] || source_of[i]->lights(), source_of[i] && source_of[i]->left_out});
   }
 }
 

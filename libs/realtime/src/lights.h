@@ -97,9 +97,12 @@ class Lights {
   bool is_sun(const Source& source) const;
   static int most_sun_parts(const scene::Scene& scene, const RendererParams& params);
   void add_lights(const scene::Scene& scene, float time, const std::vector<mat4>& world,
-                  const std::vector<std::string>& groups, int most_parts);
+                  const std::vector<std::string>& groups, const RendererParams& params);
+  /// Points and, of even emission, corners of a mesh that stands at `placed`, and its map slots.
+  void shape_as_mesh(Source& source, GpuEmitter& e, const scene::Mesh& mesh, const mat4& placed, bool even,
+                     const RendererParams& params);
   void add_meshes(const scene::Scene& scene, const std::vector<mat4>& world,
-                  const std::vector<std::string>& groups, int samples);
+                  const std::vector<std::string>& groups, const RendererParams& params);
   void add_environment(const scene::Scene& scene, const std::vector<std::string>& groups, int samples,
                        const Lights* before);
   void place(Source& source, const mat4& world);

@@ -112,7 +112,9 @@ std::string Shaders::compile_all() {
         indirect(static_cast<IndirectLookup>(lookup), full, static_cast<IndirectOutput>(output));
     }
   }
-  for (const auto kind : {EmitterKind::disc, EmitterKind::sphere, EmitterKind::environment}) seen(kind);
+  for (const auto kind :
+       {EmitterKind::disc, EmitterKind::sphere, EmitterKind::mesh, EmitterKind::environment})
+    seen(kind);
   return warnings_;
 }
 

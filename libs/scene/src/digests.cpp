@@ -71,7 +71,9 @@ void add(Hasher& h, const Light& l) {
   add(h.text(light_group(l)).value(l.node).value(l.type), l.color).value(l.intensity);
   h.value(l.type == LightType::directional ? l.angular_radius : l.range);
   if (l.type == LightType::spot) h.value(l.inner_cone).value(l.outer_cone);
-  if (l.type == LightType::sphere || l.type == LightType::sphl) h.value(l.radius);
+  if (l.type == LightType::sphere || l.type == LightType::sphl || l.type == LightType::disc)
+    h.value(l.radius);
+  if (l.type == LightType::rectangle) add(h, l.size);
   if (l.has_profile()) {
     const PhotometricTable& t = *l.profile.table;
     h.text("profile").value(t.type).array(t.polar).array(t.turn).array(t.candela);

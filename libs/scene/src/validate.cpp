@@ -110,12 +110,17 @@ void validate_camera(const Camera& camera, const std::string& where) {
 
 void validate_light(Light& light, const std::string& where, Repairs& repairs) {
   check_finite(light.color, where, "colour");
-  check_finite({light.intensity, light.radius, light.angular_radius, light.inner_cone, light.outer_cone,
-                light.range, light.emission.rate, light.emission.start},
+  check_finite({light.intensity, light.radius, light.size.x, light.size.y, light.angular_radius,
+                light.inner_cone, light.outer_cone, light.range, light.emission.rate, light.emission.start},
                where, "a parameter");
   if (light.type == LightType::sphere && !(light.radius > 0)) {
     throw Error(where, fmt::format("sphere of radius {} m", light.radius), "give it a radius above 0");
   }
+  if (light.type == LightType::disc && !(light.radius > 0))
+    throw Error(where, fmt::format("disc of radius {} m", light.radius), "give it a radius above 0");
+  if (light.type == LightType::rectangle && !(light.size.x > 0 && light.size.y > 0))
+    throw Error(where, fmt::format("rectangle of {} × {} m", light.size.x, light.size.y),
+                "give it a width and a height above 0");
   if (light.type == LightType::sphl) {
     if (!(light.radius > 0))
       throw Error(where, fmt::format("SPHL of radius {} m", light.radius), "give it a radius above 0");

@@ -45,10 +45,10 @@ Scene scene_with_all_fields() {
   s.instances = {{0, 0, -1, ""}, {0, 1, 0, ""}};
   s.cameras.resize(2);
   s.cameras[1].orthographic = true, s.cameras[1].yheight = 3;
-  s.lights.resize(5);
-  for (int i = 0; i < 5; ++i) s.lights[i].type = static_cast<LightType>(i);
+  s.lights.resize(7);
+  for (int i = 0; i < 7; ++i) s.lights[i].type = static_cast<LightType>(i);
   for (Light& l : s.lights) {
-    l.node = 0, l.radius = 0.5f;
+    l.node = 0, l.radius = 0.5f, l.size = {0.5f, 1};
     l.emission = {.frames = {sh::IntensitySh(1), sh::IntensitySh(1)}, .rate = 2};
     l.profile = {
         "p", std::make_shared<const PhotometricTable>(PhotometricTable{Photometry::c, {0, 90}, {0}, {1, 2}})};
@@ -150,11 +150,12 @@ bool invisible(const std::string& path) {
       "|nodes\\[1\\]\\.(translation|rotation|scale)"                   // its matrix replaces them
       "|nodes\\[.\\]\\.movable"                                        // follows from the animations
       "|cameras\\[0\\]\\.yheight|cameras\\[1\\]\\.yfov"                // of the other projection
-      "|lights\\[[012]\\]\\.radius"                                    // spheres have one
-      "|lights\\[[0-3]\\]\\.emission.*"                                // SPHLs have one
-      "|lights\\[.\\]\\.profile\\.name|lights\\[[234]\\]\\.profile.*"  // for people; of points and spots
-      "|lights\\[[0134]\\]\\.angular_radius|lights\\[2\\]\\.range"     // suns have one, and reach everywhere
-      "|lights\\[[0234]\\]\\.(inner|outer)_cone");                     // spots have one
+      "|lights\\[[0125]\\]\\.radius"                                   // spheres and discs have one
+      "|lights\\[[0-46]\\]\\.size"                                     // rectangles have one
+      "|lights\\[[0-356]\\]\\.emission.*"                              // SPHLs have one
+      "|lights\\[.\\]\\.profile\\.name|lights\\[[2-6]\\]\\.profile.*"  // for people; of points and spots
+      "|lights\\[[013-6]\\]\\.angular_radius|lights\\[2\\]\\.range"    // suns have one, and reach everywhere
+      "|lights\\[[02-6]\\]\\.(inner|outer)_cone");                     // spots have one
   return std::regex_match(path, patterns);
 }
 

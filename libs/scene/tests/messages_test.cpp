@@ -314,6 +314,12 @@ TEST(SceneMessages, OfNumbers) {
   EXPECT_EQ(said_of([](Scene& s) { s.lights[0].range = NAN; }), "light 0 \"l\": a parameter is not finite");
   EXPECT_EQ(said_of([](Scene& s) { s.lights[0].type = LightType::sphere; }),
             "light 0 \"l\": sphere of radius 0 m (give it a radius above 0)");
+  EXPECT_EQ(said_of([](Scene& s) { s.lights[0].type = LightType::disc; }),
+            "light 0 \"l\": disc of radius 0 m (give it a radius above 0)");
+  EXPECT_EQ(said_of([](Scene& s) {
+              s.lights[0].type = LightType::rectangle, s.lights[0].size = {2, 0};
+            }),
+            "light 0 \"l\": rectangle of 2 × 0 m (give it a width and a height above 0)");
   EXPECT_EQ(said_of([](Scene& s) { s.sphls[0].radius = 0; }),
             "SPHL 0 \"s\": radius is 0 m (give it a radius above 0)");
   const std::string environment = "environment 0 \"environment\": ";

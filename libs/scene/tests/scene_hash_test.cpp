@@ -34,7 +34,7 @@ Scene full_scene() {
   s.cameras.resize(2);
   s.cameras[0].node = s.cameras[1].node = 0;
   s.cameras[1].orthographic = true;
-  s.lights.resize(5);
+  s.lights.resize(7);
   for (Light& l : s.lights) l.node = 0;
   s.lights[1].type = LightType::spot;
   s.lights[2].type = LightType::directional;
@@ -43,6 +43,10 @@ Scene full_scene() {
   s.lights[4].type = LightType::sphl;
   s.lights[4].radius = 1;
   s.lights[4].emission.frames = {sh::IntensitySh(1)};
+  s.lights[5].type = LightType::rectangle;
+  s.lights[5].size = vec2(1);
+  s.lights[6].type = LightType::disc;
+  s.lights[6].radius = 1;
   s.sphls.push_back({"s", 0, 0.1f, true});
   s.animations.resize(1);
   s.animations[0].channels.push_back(
@@ -130,6 +134,9 @@ std::vector<Change> visible_changes() {
       {"outer cone", [](Scene& s) { s.lights[1].outer_cone = 0.1f; }},
       {"angular radius", [](Scene& s) { s.lights[2].angular_radius = 0.1f; }},
       {"sphere radius", [](Scene& s) { s.lights[3].radius = 0.1f; }},
+      {"width of a rectangle", [](Scene& s) { s.lights[5].size.x = 0.1f; }},
+      {"height of a rectangle", [](Scene& s) { s.lights[5].size.y = 0.1f; }},
+      {"radius of a disc", [](Scene& s) { s.lights[6].radius = 0.1f; }},
       {"radius of an SPHL that shines", [](Scene& s) { s.lights[4].radius = 0.1f; }},
       {"emission", [](Scene& s) { s.lights[4].emission.frames[0][2].y = 1; }},
       {"emission's frames", [](Scene& s) { s.lights[4].emission.frames.emplace_back(1); }},
@@ -181,6 +188,7 @@ TEST(SceneHash, InvisibleChangesKeepIt) {
        [](Scene& s) { s.materials[0].base_color_texture.offset = vec2(-0.0f, -0.0f); }},
       {"signs of zeros of a rotation",
        [](Scene& s) { s.nodes[0].local.rotation = quat(1, -0.0f, -0.0f, -0.0f); }},
+      {"size of a point light", [](Scene& s) { s.lights[0].size.x = 0.3f; }},
       {"cone of a point light", [](Scene& s) { s.lights[0].outer_cone = 0.3f; }},
   };
   const Hash128 before = scene_hash(full_scene());

@@ -86,6 +86,13 @@ TEST(Validate, FaultsAreErrorsThatNameTheObject) {
       {"light 0 \"lamp\"", [](Scene& s) { s.lights[0].node = 7; }},
       {"light 0", [](Scene& s) { s.lights[0].intensity = nan; }},
       {"light 0", [](Scene& s) { s.lights[0].type = LightType::sphere; }},  // radius 0
+      {"light 0", [](Scene& s) { s.lights[0].type = LightType::disc; }},
+      {"light 0", [](Scene& s) { s.lights[0].type = LightType::rectangle; }},  // size 0
+      {"light 0",
+       [](Scene& s) {
+         s.lights[0].type = LightType::rectangle, s.lights[0].size = {1, -1};
+       }},
+      {"light 0", [](Scene& s) { s.lights[0].size.y = nan; }},
       {"SPHL 0 \"probe\"", [](Scene& s) { s.sphls[0].node = -2; }},
       {"SPHL 0", [](Scene& s) { s.sphls[0].radius = 0; }},
       {"animation 0 channel 0", [](Scene& s) { s.animations[0].channels[0].node = -1; }},

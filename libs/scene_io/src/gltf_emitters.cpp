@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/image/io.h>
+#include <ssphh/scene/area_lamp.h>
 
 #include "gltf_names.h"
 #include "gltf_parts.h"
@@ -80,26 +81,45 @@ Light import_light(const json::Cursor& light, const GltfDocument& document) {
     }
   }
 
-  // Spheres and discs of this project's extras
+  // Spheres, discs and flat lamps of this project's extras
   const auto more = extra(light, "ssphh");
   const std::string type = more ? more->text_or("type") : "";
+  const auto positive = [](const json::Cursor& member) {
+    const float value = member.number();
+    if (!(value > 0)) member.fail("must be greater than 0");
+    return value;
+  };
+  const auto take_radiance = [&](const char* extent, float area) {
+    const auto radiance = more->find("radiance");
+    out.intensity = radiance ? radiance->number(0, HUGE_VALF) : out.intensity / area;
+    if (!std::isfinite(out.intensity)) (*more)[extent].fail("is too small for the light's intensity");
+  };
   if (type == name_of(LightType::sphere)) {
     if (out.type != LightType::point) more->fail("only a point light can be a sphere");
     out.type = LightType::sphere;
-    out.radius = (*more)["radius"].number();
-    if (!(out.radius > 0)) (*more)["radius"].fail("must be greater than 0");
-    const auto radiance = more->find("radiance");
-    out.intensity =
-        radiance ? radiance->number(0, HUGE_VALF) : out.intensity / (pi * out.radius * out.radius);
-    if (!std::isfinite(out.intensity)) (*more)["radius"].fail("is too small for the light's intensity");
+    out.radius = positive((*more)["radius"]);
+    take_radiance("radius", pi * out.radius * out.radius);
+  } else if (type == name_of(LightType::rectangle) || type == name_of(LightType::disc)) {
+    if (out.type != LightType::spot) more->fail(fmt::format("only a spot light can be a {}", type));
+    const bool disc = type == name_of(LightType::disc);
+    out.type = disc ? LightType::disc : LightType::rectangle;
+    out.inner_cone = scene::Light{}.inner_cone, out.outer_cone = scene::Light{}.outer_cone;
+    const char* extent = disc ? "radius" : "size";
+    if (disc) {
+      out.radius = positive((*more)[extent]);
+    } else {
+      const json::Cursor size = (*more)[extent];
+      size.size(2, 2);
+      out.size = {positive(size[0]), positive(size[1])};
+    }
+    take_radiance(extent, scene::lamp_area(out));
   } else if (type == name_of(LightType::sphl)) {
     if (out.type != LightType::point) more->fail("only a point light can be an SPHL");
-    out.radius = (*more)["radius"].number();
-    if (!(out.radius > 0)) (*more)["radius"].fail("must be greater than 0");
+    out.radius = positive((*more)["radius"]);
     out.intensity = 1;
     read_emission(out, (*more)["emission"], files_beside(document));
   } else if (more && more->find("type")) {
-    (*more)["type"].fail("can only be \"sphere\" or \"sphl\"");
+    (*more)["type"].fail("can only be \"sphere\", \"sphl\", \"rectangle\" or \"disc\"");
   }
   if (more && more->find("angular_radius")) {
     if (out.type != LightType::directional) more->fail("only a directional light can have an angular_radius");

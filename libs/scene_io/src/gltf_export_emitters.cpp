@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <ssphh/scene/area_lamp.h>
+
 #include "gltf_export_parts.h"
 #include "gltf_names.h"
 #include "read_emission.h"
@@ -39,7 +41,10 @@ json::Value export_light(const scene::Light& light) {
   if (light.range > 0 && light.type != LightType::directional) out["range"] = number(light.range);
   if (!light.group.empty()) out["extras"]["light_group"] = light.group;
   const bool with_extras = light.type == LightType::sphere || light.type == LightType::sphl;
-  out["type"] = name_in(gltf_light_types, with_extras ? LightType::point : light.type);
+  const LightType known = with_extras                       ? LightType::point
+                          : scene::is_area_lamp(light.type) ? LightType::spot
+                                                            : light.type;
+  out["type"] = name_in(gltf_light_types, known);
   switch (light.type) {
     case LightType::point:
       break;
@@ -59,6 +64,17 @@ json::Value export_light(const scene::Light& light) {
                                 {"radius", number(light.radius)},
                                 {"radiance", number(light.intensity)}};
       break;
+    case LightType::rectangle:
+    case LightType::disc: {
+      // As bright straight ahead from afar; the square of the ramp of a spot's cone is near the cosine's.
+      out["intensity"] = number(light.intensity * scene::lamp_area(light));
+      out["spot"] = {{"innerConeAngle", 0}, {"outerConeAngle", number(pi / 2)}};
+      json::Value& more = out["extras"]["ssphh"];
+      more = {{"type", name_of(light.type)}, {"radiance", number(light.intensity)}};
+      if (light.type == LightType::disc) more["radius"] = number(light.radius);
+      if (light.type == LightType::rectangle) more["size"] = {number(light.size.x), number(light.size.y)};
+      break;
+    }
     case LightType::sphl:
       out["intensity"] = number(light.intensity * luminance(scene::mean_intensity(light.emission.frames[0])));
       out["extras"]["ssphh"] = {{"type", name_of(light.type)}, {"radius", number(light.radius)}};

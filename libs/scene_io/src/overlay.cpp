@@ -14,10 +14,9 @@
 #include <ssphh/scene_io/overlay.h>
 #include <ssphh/scene_io/unit.h>
 
+#include "overlay_entries.h"
 #include "overlay_paths.h"
-#include "read_emission.h"
 #include "read_light_modes.h"
-#include "read_profile.h"
 #include "read_tone_curves.h"
 
 namespace ssphh::scene_io {
@@ -27,52 +26,6 @@ using scene::Scene;
 
 constexpr std::size_t max_entries = 100'000;
 constexpr int max_overlays_below = 8;  // one below the other
-
-float degrees(const json::Cursor& object, const char* key, float low, float high, float fallback) {
-  const auto member = object.find(key);
-  return glm::radians(member ? member->number(low, high) : fallback);
-}
-
-float positive(const json::Cursor& member) {
-  const float value = member.number();
-  if (!(value > 0)) member.fail("must be greater than 0");
-  return value;
-}
-
-// Rotation whose −z is `direction`, y as near to `up` as it can be.
-quat looking_along(const json::Cursor& place, const vec3& direction, const vec3& up) {
-  const float length = glm::length(direction);
-  if (!(length > 0) || !std::isfinite(length)) place.fail("gives no direction to look in");
-  const vec3 z = -direction / length;
-  vec3 x = glm::cross(up, z);
-  if (glm::length(x) < 1e-4f * glm::length(up))
-    x = glm::cross(std::abs(z.x) < 0.9f ? vec3(1, 0, 0) : vec3(0, 0, 1), z);
-  x = glm::normalize(x);
-  return glm::normalize(glm::quat_cast(mat3(x, glm::cross(z, x), z)));
-}
-
-// A node for an entry: "position", "look_at" or "direction", "up", "node" (name of the node it hangs on).
-int add_node(Scene& scene, const json::Cursor& entry, const std::string& name) {
-  scene::Node node;
-  node.name = name;
-  if (const auto position = entry.find("position")) node.local.translation = position->vector3();
-  const auto up_member = entry.find("up");
-  const vec3 up = up_member ? up_member->vector3() : vec3(0, 1, 0);
-  if (!(glm::length(up) > 0)) up_member->fail("must not be zero");
-  const auto look_at = entry.find("look_at"), direction = entry.find("direction");
-  if (look_at && direction) entry.fail("has both \"look_at\" and \"direction\"");
-  if (look_at) node.local.rotation = looking_along(*look_at, look_at->vector3() - node.local.translation, up);
-  if (direction) node.local.rotation = looking_along(*direction, direction->vector3(), up);
-  if (const auto parent = entry.find("node")) {
-    const auto found =
-        std::ranges::find_if(scene.nodes, [&](const scene::Node& n) { return n.name == parent->text(); });
-    if (found == scene.nodes.end()) parent->fail(fmt::format("the scene has no node \"{}\"", parent->text()));
-    node.parent = static_cast<int>(found - scene.nodes.begin());
-    node.movable = found->movable;
-  }
-  scene.nodes.push_back(std::move(node));
-  return static_cast<int>(scene.nodes.size()) - 1;
-}
 
 void read_camera(Scene& scene, const json::Cursor& entry, std::size_t number) {
   entry.only({"name", "position", "look_at", "direction", "up", "node", "yfov_degrees", "xfov_degrees",
@@ -92,62 +45,8 @@ void read_camera(Scene& scene, const json::Cursor& entry, std::size_t number) {
     camera.orthographic = true;
     camera.yheight = positive(*height);
   }
-  camera.node = add_node(scene, entry, camera.name);
+  camera.node = add_overlay_node(scene, entry, camera.name);
   scene.cameras.push_back(std::move(camera));
-}
-
-void read_light(Scene& scene, const json::Cursor& entry, std::size_t number,
-                const std::filesystem::path& overlay) {
-  entry.only({"name", "light_group", "type", "position", "look_at", "direction", "up", "node", "color",
-              "intensity", "radius", "angular_diameter_degrees", "inner_cone_degrees", "outer_cone_degrees",
-              "range", "emission", "profile"});
-  scene::Light light;
-  light.name = entry.text_or("name", fmt::format("light {}", number));
-  light.group = entry.text_or("light_group");
-  light.type = entry["type"].named<scene::LightType>();
-  if (const auto color = entry.find("color")) light.color = color->vector3();
-  if (const auto intensity = entry.find("intensity")) light.intensity = intensity->number(0, HUGE_VALF);
-  if (const auto range = entry.find("range")) light.range = positive(*range);
-  const bool shines = light.type == scene::LightType::sphl;
-  if (light.type == scene::LightType::sphere || shines) light.radius = positive(entry["radius"]);
-  if (shines) {
-    read_emission(light, entry["emission"],
-                  [&](const json::Cursor& file) { return overlay_path(file, overlay); });
-  } else if (const auto emission = entry.find("emission")) {
-    emission->fail("only an SPHL has one");
-  }
-  if (const auto profile = entry.find("profile")) {
-    if (light.type != scene::LightType::point && light.type != scene::LightType::spot)
-      profile->fail("only a point or spot light has one");
-    light.profile =
-        read_profile(*profile, [&](const json::Cursor& file) { return overlay_path(file, overlay); });
-    if (!entry.find("intensity")) light.intensity = scene::greatest_candela(*light.profile.table);
-  }
-  light.angular_radius = degrees(entry, "angular_diameter_degrees", 0, 180, 0) / 2;
-  light.inner_cone = degrees(entry, "inner_cone_degrees", 0, 90, 0);
-  light.outer_cone = degrees(entry, "outer_cone_degrees", 0, 90, 45);
-  if (light.inner_cone > light.outer_cone) entry.fail("the inner cone is wider than the outer one");
-  const bool directed = light.type == scene::LightType::spot || light.type == scene::LightType::directional;
-  if ((directed || light.has_profile()) && !entry.find("look_at") && !entry.find("direction")) {
-    entry.fail(fmt::format("a {} light{} needs \"direction\" or \"look_at\"", name_of(light.type),
-                           light.has_profile() ? " with a profile" : ""));
-  }
-  light.node = add_node(scene, entry, light.name);
-  scene.lights.push_back(std::move(light));
-}
-
-/// An SPHL that shines: a lamp of its name at its node.
-void add_emission(Scene& scene, const json::Cursor& entry, const scene::Sphl& sphl,
-                  const std::filesystem::path& overlay) {
-  const auto emission = entry.find("emission");
-  const auto group = entry.find("light_group");
-  if (!emission && group) group->fail("only an SPHL with \"emission\" has a light group");
-  if (!emission) return;
-  scene::Light light;
-  light.name = sphl.name, light.node = sphl.node, light.radius = sphl.radius;
-  if (group) light.group = group->text();
-  read_emission(light, *emission, [&](const json::Cursor& member) { return overlay_path(member, overlay); });
-  scene.lights.push_back(std::move(light));
 }
 
 void read_sphl(Scene& scene, const json::Cursor& entry, std::size_t number,
@@ -159,8 +58,8 @@ void read_sphl(Scene& scene, const json::Cursor& entry, std::size_t number,
   if (const auto radius = entry.find("radius")) sphl.radius = positive(*radius);
   sphl.enabled = entry.boolean_or("enabled", true);
   entry["position"];
-  sphl.node = add_node(scene, entry, sphl.name);
-  add_emission(scene, entry, sphl, overlay);
+  sphl.node = add_overlay_node(scene, entry, sphl.name);
+  read_sphl_lamp(scene, entry, sphl, overlay);
   scene.sphls.push_back(std::move(sphl));
 }
 

@@ -94,8 +94,9 @@ TEST(OverlayLimits, OfLights) {
   EXPECT_EQ(said_of_overlay(R"({"lights": [{"type": "point"}]})"), "no error");
   EXPECT_EQ(said_of_overlay(R"({"lights": [{"type": "sphere", "radius": 0}]})"),
             "o: lights[0].radius: must be greater than 0");
-  EXPECT_EQ(said_of_overlay(R"({"lights": [{"type": "laser"}]})"),
-            "o: lights[0].type: \"laser\" is none of: point, spot, directional, sphere, sphl");
+  EXPECT_EQ(
+      said_of_overlay(R"({"lights": [{"type": "laser"}]})"),
+      "o: lights[0].type: \"laser\" is none of: point, spot, directional, sphere, sphl, rectangle, disc");
   EXPECT_EQ(said_of_overlay(R"({"lights": [{}]})"), "o: lights[0]: \"type\" is missing");
 }
 

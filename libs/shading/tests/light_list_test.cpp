@@ -43,8 +43,8 @@ void add_choices(NumberList& list, const scene::Scene& scene, const LightSet& li
       }
     }
     for (const vec3& aim : {vec3(-0.4f, 2.3f, 0.9f), vec3(-0.3f, 2.45f, 1)})
-      lights.intersect_spheres(x, glm::normalize(aim - x), 9,
-                               [&](const EmitterHit& h) { add(list, "ball", h); });
+      lights.intersect_lamps(x, glm::normalize(aim - x), 9,
+                             [&](const EmitterHit& h) { add(list, "ball", h); });
   }
 }
 

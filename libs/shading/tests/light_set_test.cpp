@@ -29,6 +29,8 @@ scene::Scene everything(int points) {
   add_light(scene, LightType::directional, vec3(0), {-1, -1, 0}).intensity = 0.5f;
   auto& sphere = add_light(scene, LightType::sphere, {1, 2, -1});
   sphere.radius = 0.5f, sphere.intensity = 3;
+  add_light(scene, LightType::rectangle, {0.5f, 2, 1}, {-0.2f, -1, 0}).size = {0.7f, 0.3f};
+  add_light(scene, LightType::disc, {-1, 1.5f, 1}).radius = 0.4f;
   add_panel(scene, glowing(vec3(2)), {{0, 2.5f, 1}, quat(1, 0, 0, 0), vec3(1)});
   scene.environment = scene::Environment{};
   scene.environment->color = vec3(0.2f);
@@ -84,7 +86,7 @@ TEST(LightSet, HitsReportTheDensityOfTheirSamples) {
           EXPECT_EQ(hit.radiance, s->radiance);
         };
       };
-      lights.intersect_spheres(x, s->wi, 1e9f, compare(spheres));
+      lights.intersect_lamps(x, s->wi, 1e9f, compare(spheres));
       if (std::isinf(s->distance)) lights.escaped(s->wi, compare(distant));
     }
     EXPECT_GT(spheres, 10);
@@ -106,7 +108,7 @@ TEST(LightSet, RaysFindWhatSamplingFinds) {
     const auto add = [&](const EmitterHit& hit) {
       sum += static_cast<double>(hit.radiance.x * glm::max(d.y, 0.0f) * 4 * pi);
     };
-    lights.intersect_spheres(vec3(0), d, 1e9f, add);
+    lights.intersect_lamps(vec3(0), d, 1e9f, add);
     lights.escaped(d, add);
     by_rays.add(sum);
   }

@@ -214,7 +214,7 @@ vec3 PosedLight::emitted(int group, const rays::RayQuery& ray, float distance) c
   const auto add = [&](const shading::EmitterHit& hit) {
     if (hit.group == group) sum += hit.radiance;
   };
-  lights_.intersect_spheres(ray.origin, direction, distance * length, add);
+  lights_.intersect_lamps(ray.origin, direction, distance * length, add);
   if (std::isinf(distance)) lights_.escaped(direction, add);
   if (sum != vec3(0) && geometry_.filters()) {
     RayTask task;

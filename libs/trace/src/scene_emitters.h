@@ -27,7 +27,7 @@ class SceneEmitters {
     const auto found = [&](const shading::EmitterHit& e) {
       visit(e.group, e.radiance, e.pdf, -ray.direction);
     };
-    lights.intersect_spheres(ray.origin, ray.direction, distance, [&](const shading::EmitterHit& e) {
+    lights.intersect_lamps(ray.origin, ray.direction, distance, [&](const shading::EmitterHit& e) {
       if (e.distance >= ray.t_min) found(e);
     });
     if (!std::isinf(distance)) return;

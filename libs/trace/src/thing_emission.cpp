@@ -6,6 +6,7 @@
 #include <ssphh/core/random.h>
 #include <ssphh/core/require.h>
 #include <ssphh/core/sphere.h>
+#include <ssphh/scene/area_lamp.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/scene/thing_alone.h>
 #include <ssphh/sh/evaluate.h>
@@ -59,7 +60,8 @@ Ball ball_around(const scene::Scene& thing, const std::vector<mat4>& world,
   std::vector<vec3> lamps;
   for (const scene::Light& light : thing.lights) {
     lamps.emplace_back(world[light.node][3]);
-    bounds.add(lamps.back() - light.radius), bounds.add(lamps.back() + light.radius);
+    const float reach = scene::lamp_reach(light);
+    bounds.add(lamps.back() - reach), bounds.add(lamps.back() + reach);
   }
   if (bounds.empty()) return {};
   Ball ball{center.value_or(bounds.center()), 0};
@@ -70,7 +72,7 @@ Ball ball_around(const scene::Scene& thing, const std::vector<mat4>& world,
     const mat4& matrix = world[instance.node];
     for (const vec3& p : thing.meshes[instance.mesh].positions) reach(vec3(matrix * vec4(p, 1)), 0);
   }
-  for (std::size_t i = 0; i < lamps.size(); ++i) reach(lamps[i], thing.lights[i].radius);
+  for (std::size_t i = 0; i < lamps.size(); ++i) reach(lamps[i], scene::lamp_reach(thing.lights[i]));
   return ball;
 }
 

@@ -93,6 +93,31 @@ TEST(DirectLight, SphereLightGivesPiLTimesSquaredSineTimesCosine) {
   EXPECT_TRUE(mean_is(radiance_at_origin(scene), pi_d * 7 * sin2 * cosine * albedo / pi_d, {}, 1e-5));
 }
 
+TEST(DirectLight, FlatLampsGiveTheirFormFactors) {
+  // Along the axis of a disc F = r²/(r² + h²); a square seen from below a corner, sides as long as it is
+  // high: F = 1/(2π) · 2/√2 · atan(1/√2) (Howell, B-3). One shines down, one along the floor's normal alone.
+  scene::Scene disc = floor_scene();
+  add_light(disc, scene::LightType::disc, 7, vec3(0, 2, 0)).radius = 0.5f;
+  EXPECT_TRUE(mean_is(radiance_at_origin(disc), 7 * 0.25 / 4.25 * albedo, {}, 1e-4));
+  scene::Scene square = floor_scene();
+  add_light(square, scene::LightType::rectangle, 7, vec3(1, 2, 1)).size = vec2(2);
+  const double factor = std::atan(1 / std::sqrt(2.0)) * std::sqrt(2.0) / (2 * pi_d);
+  EXPECT_TRUE(mean_is(radiance_at_origin(square), 7 * factor * albedo, {}, 1e-4));
+}
+
+TEST(DirectLight, FlatLampsAreSeenFromTheirFrontAndHideNothing) {
+  scene::Scene scene = floor_scene();
+  add_light(scene, scene::LightType::rectangle, 5, vec3(0, 0.25f, 0), vec3(0, 1, 0)).size = {1, 2};
+  const auto seen_from_above = [&] { return mean_of(render(scene, view_point(vec3(0), 4, 1)).color); };
+  EXPECT_NEAR(seen_from_above(), 5, 1e-6) << "the floor under it is dark: the lamp shines away";
+  scene.nodes.back().local.rotation = looking(vec3(0, -1, 0));
+  const double floor = seen_from_above();
+  EXPECT_LT(floor, 5 * albedo) << "its back is not there";
+  EXPECT_GT(floor, 0.8 * 5 * albedo * 0.9);
+  scene.lights[0].intensity = 0;
+  EXPECT_EQ(seen_from_above(), 0);
+}
+
 TEST(DirectLight, ConstantSkyGivesAlbedoTimesItsRadiance) {
   scene::Scene scene = floor_scene();
   add_constant_sky(scene, vec3(1, 2, 3));

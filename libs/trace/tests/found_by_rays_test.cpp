@@ -17,6 +17,8 @@ scene::Scene lamps_of_all_forms(Pcg32& random) {
   scene::Scene scene;
   const auto place = [&] { return 4.0f * random.uniform3() - 2.0f; };
   test::add_light(scene, scene::LightType::sphere, 1, place()).radius = 0.3f;
+  test::add_light(scene, scene::LightType::rectangle, 1, place(), random.uniform3() - vec3(0.5f)).size = {
+      0.7f, 0.4f};
   test::add_object(scene, scene::make_quad(place(), {0.5f, 0, 0}, {0, 0, 0.5f}),
                    test::lambertian(vec3(0), vec3(1)), "flat");
   test::add_object(
@@ -27,7 +29,7 @@ scene::Scene lamps_of_all_forms(Pcg32& random) {
 
 bool finds_light(const TracerData& data, const Ray& ray) {
   bool found = false;
-  data.lights.intersect_spheres(ray.origin, ray.direction, ray.t_max, [&](const auto&) { found = true; });
+  data.lights.intersect_lamps(ray.origin, ray.direction, ray.t_max, [&](const auto&) { found = true; });
   RayTask task;
   Hit hit;
   return found || data.geometry.intersect(ray, Passage(0), task, hit);

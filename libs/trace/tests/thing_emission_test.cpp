@@ -300,6 +300,19 @@ TEST(ThingEmission, RefusesWhatSendsOutNothing) {
             "node \"stone\": 2 nodes have that name (there are: stone)");
 }
 
+TEST(ThingEmission, OfAFlatLampIsItsAreaTimesItsRadianceByTheCosine) {
+  scene::Scene s;
+  const int node = add_node(s, "panel", placed({3, 1, -2}, 0.7f));
+  scene::Light& lamp = s.lights.emplace_back();
+  lamp.name = "panel", lamp.node = node, lamp.type = scene::LightType::rectangle;
+  lamp.size = {1.5f, 1}, lamp.intensity = 4;
+  const ThingEmission seen = thing_emission(s, node, 0, {.degree = 2});
+  // Of I = 6 max(−z, 0): means of I and of −z I are 6/4 and 6/6. Pixels at the edge are hit or missed.
+  EXPECT_NEAR(seen.intensity[0].x / std::sqrt(4 * pi), 1.5f, 0.015f);
+  EXPECT_NEAR(seen.intensity[2].x / (std::sqrt(4 * pi) * std::sqrt(3.0f)), -1, 0.01f);
+  EXPECT_NEAR(seen.radius, 0.5f * std::sqrt(3.25f), 0.01f);
+}
+
 TEST(BuriedLamps, AreThoseInsideOfBodies) {
   scene::Scene s;
   add_node(s, "box", {});

@@ -121,6 +121,22 @@ TEST(TransportLight, AreaLightGivesItsFormFactor) {
   EXPECT_NEAR(at_origin(scene, options), exact, 2e-4 * exact);
 }
 
+TEST(TransportLight, ARectangleLampGivesItsFormFactorUnhiddenAndTheVisibleShareOfItElse) {
+  scene::Scene scene = grey_floor();
+  add_light(scene, scene::LightType::rectangle, 4, vec3(0.2f, 1.5f, 0)).size = {1, 0.5f};
+  // The lamp's axes are those that looking() gives for straight down: x along x, y along −z.
+  const vec3 corners[4] = {
+      {-0.3f, 1.5f, 0.25f}, {0.7f, 1.5f, 0.25f}, {0.7f, 1.5f, -0.25f}, {-0.3f, 1.5f, -0.25f}};
+  const double exact = 4 * lambert(corners);
+  EXPECT_NEAR(at_origin(scene), exact, 1e-5 * exact) << "no noise unhidden";
+  // Half way, a sheet over x < 0.1 leaves what is seen at x > 0.2.
+  add_object(scene, scene::make_quad({-2, 0.75f, 2}, {2.1f, 0, 0}, {0, 0, -4}), lambertian(vec3(0)), "sheet");
+  const vec3 left[4] = {{0.2f, 1.5f, 0.25f}, {0.7f, 1.5f, 0.25f}, {0.7f, 1.5f, -0.25f}, {0.2f, 1.5f, -0.25f}};
+  trace::TransportOptions options;
+  options.light_samples = 4096;
+  EXPECT_NEAR(at_origin(scene, options), 4 * lambert(left), 0.01 * exact);
+}
+
 TEST(TransportLight, ConstantSkyGivesPi) {
   scene::Scene scene = grey_floor();
   add_constant_sky(scene, vec3(1, 2, 3));

@@ -257,6 +257,9 @@ void write_light(Export& e, std::size_t index, const FlatLight& flat, const scen
       write_mesh(e, light.name, id, sphere_around(flat.position, light.radius), {});
       e.differences.add("sphere lights block other light", light.name);
       break;
+    case scene::LightType::rectangle:
+    case scene::LightType::disc:
+      break;  // meshes by now
   }
 }
 
@@ -330,14 +333,15 @@ std::string configuration(const ExportSettings& settings) {
 }  // namespace
 }  // namespace corona
 
-ExportReport export_corona(const scene::Scene& scene, const ExportSettings& settings,
+ExportReport export_corona(const scene::Scene& given, const ExportSettings& settings,
                            const std::filesystem::path& directory) {
   using namespace corona;
-  begin_export(scene, settings, directory);
+  const scene::Scene scene = begin_export(given, settings, directory);
   const FlatScene flat = flatten(scene, settings.time);
   const scene::Bounds bounds = bounds_of(flat);
   Export e{scene, settings, directory, TextureFiles(scene, directory), XmlWriter(false), XmlWriter(false),
            {},    {},       0};
+  note_area_lamps(given, e.differences);
   e.scn.open("scene");
   e.scn.text("confFile", "scene.conf");
   e.scn.text("mtlLib", "scene.mtl");

@@ -148,12 +148,13 @@ std::string texture_file(const scene::Texture& texture, std::size_t index) {
 
 }  // namespace
 
-ExportReport export_cycles(const scene::Scene& scene, const ExportSettings& settings,
+ExportReport export_cycles(const scene::Scene& given, const ExportSettings& settings,
                            const std::filesystem::path& directory) {
-  begin_export(scene, settings, directory);
+  const scene::Scene scene = begin_export(given, settings, directory);
   const FlatScene flat = flatten(scene, settings.time);
   ExportReport report;
   Differences differences;
+  note_area_lamps(given, differences);
   report.files.push_back(directory / "render.py");
 
   json::Value json = {{"format", "ssphh cycles scene"},

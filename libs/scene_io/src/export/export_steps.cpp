@@ -4,11 +4,12 @@
 
 #include <ssphh/core/require.h>
 #include <ssphh/core/vectors.h>
+#include <ssphh/scene/area_lamp.h>
 
 namespace ssphh::scene_io {
 
-void begin_export(const scene::Scene& scene, const ExportSettings& settings,
-                  const std::filesystem::path& directory) {
+scene::Scene begin_export(const scene::Scene& scene, const ExportSettings& settings,
+                          const std::filesystem::path& directory) {
   scene::check_indices(scene);
   require(settings.width >= 1 && settings.height >= 1, "export", "width and height must be positive");
   require(settings.max_depth >= 0 && settings.spp >= 1, "export",
@@ -19,6 +20,12 @@ void begin_export(const scene::Scene& scene, const ExportSettings& settings,
   std::error_code error;
   std::filesystem::create_directories(directory, error);
   if (error) throw Error(directory.string(), "the folder cannot be made: " + error.message());
+  return scene::area_lamps_as_meshes(scene, settings.time);
+}
+
+void note_area_lamps(const scene::Scene& given, Differences& differences) {
+  for (const scene::Light& light : given.lights)
+    if (scene::is_area_lamp(light.type)) differences.add("flat lamps block other light", light.name);
 }
 
 std::vector<scene::CameraPose> cameras_of(const ExportSettings& settings) {

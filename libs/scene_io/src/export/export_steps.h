@@ -9,9 +9,12 @@
 namespace ssphh::scene_io {
 
 /// Makes the folder. Throws Error when that fails, for a scene that scene::check_indices refuses, and for
-/// settings that no renderer takes.
-void begin_export(const scene::Scene& scene, const ExportSettings& settings,
-                  const std::filesystem::path& directory);
+/// settings that no renderer takes. Returns the scene as the others know lamps: flat ones are glowing meshes.
+scene::Scene begin_export(const scene::Scene& scene, const ExportSettings& settings,
+                          const std::filesystem::path& directory);
+
+/// Tells of the flat lamps of the scene that was given.
+void note_area_lamps(const scene::Scene& given, Differences& differences);
 
 /// The camera, or those of the cube map's faces.
 std::vector<scene::CameraPose> cameras_of(const ExportSettings& settings);

@@ -107,6 +107,9 @@ void write_light(Export& e, const FlatLight& flat) {
       e.xml.close();
       e.differences.add("sphere lights block other light", light.name);
       break;
+    case scene::LightType::rectangle:
+    case scene::LightType::disc:
+      break;  // meshes by now
   }
   e.xml.close();
 }
@@ -178,13 +181,14 @@ bool cut_out(const Export& e, const FlatScene& flat) {
 }  // namespace
 }  // namespace mitsuba
 
-ExportReport export_mitsuba(const scene::Scene& scene, const ExportSettings& settings,
+ExportReport export_mitsuba(const scene::Scene& given, const ExportSettings& settings,
                             const std::filesystem::path& directory) {
   using namespace mitsuba;
-  begin_export(scene, settings, directory);
+  const scene::Scene scene = begin_export(given, settings, directory);
   const FlatScene flat = flatten(scene, settings.time);
   const std::filesystem::path file = directory / "scene.xml";
   Export e{scene, settings, directory, TextureFiles(scene, directory), XmlWriter(), {}, {file}};
+  note_area_lamps(given, e.differences);
   e.xml.open("scene", {{"version", "3.0.0"}});
   // What covers in part lets through light of lamps in volpath alone.
   e.xml.open("integrator", {{"type", cut_out(e, flat) ? "volpath" : "path"}});

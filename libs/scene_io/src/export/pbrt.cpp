@@ -241,6 +241,9 @@ void write_light(Export& e, const FlatLight& flat) {
                 "\nAttributeEnd\n";
       e.differences.add("sphere lights block other light", light.name);
       break;
+    case scene::LightType::rectangle:
+    case scene::LightType::disc:
+      break;  // meshes by now
   }
 }
 
@@ -301,13 +304,14 @@ void write_views(Export& e, const ExportSettings& settings) {
 }  // namespace
 }  // namespace pbrt
 
-ExportReport export_pbrt(const scene::Scene& scene, const ExportSettings& settings,
+ExportReport export_pbrt(const scene::Scene& given, const ExportSettings& settings,
                          const std::filesystem::path& directory) {
   using namespace pbrt;
-  begin_export(scene, settings, directory);
+  const scene::Scene scene = begin_export(given, settings, directory);
   const FlatScene flat = flatten(scene, settings.time);
   const std::filesystem::path file = directory / "scene.pbrt";
   Export e{scene, directory, TextureFiles(scene, directory), {}, {}, {file}, {}};
+  note_area_lamps(given, e.differences);
   for (const FlatLight& light : flat.lights) write_light(e, light);
   if (scene.environment) write_environment(e, *scene.environment);
   for (const FlatMesh& mesh : flat.meshes) {

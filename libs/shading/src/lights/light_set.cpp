@@ -130,14 +130,21 @@ int LightSet::instance_group(int instance) const {
   return groups[instance];
 }
 
-int LightSet::sphere_count() const {
-  return static_cast<int>(data_->spheres.size());
+int LightSet::lamp_count() const {
+  const Data& d = *data_;
+  return static_cast<int>(d.spheres.size() + d.meshes.size() - d.flat_from);
 }
 
-std::optional<EmitterHit> LightSet::intersect_sphere(int i, const vec3& origin, const vec3& direction,
-                                                     float max_distance) const {
+std::optional<EmitterHit> LightSet::intersect_lamp(int i, const vec3& origin, const vec3& direction,
+                                                   float max_distance) const {
   const Data& d = *data_;
   const auto index = static_cast<std::size_t>(i);
+  if (index >= d.spheres.size()) {
+    const std::size_t mesh = d.flat_from + index - d.spheres.size();
+    auto hit = d.meshes[mesh]->intersect(origin, direction, max_distance);
+    if (hit) hit->pdf *= d.local_probability(d.points.size() + d.spheres.size() + mesh, origin);
+    return hit;
+  }
   const SphereLight& light = d.spheres[index];
   const auto distance = light.intersect(origin, direction, max_distance);
   if (!distance) return std::nullopt;

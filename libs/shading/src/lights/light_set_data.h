@@ -26,7 +26,10 @@ struct LightSet::Data {
   std::vector<PosedLight> lights;  ///< of the scene, as they are now
   std::vector<PointLight> points;
   std::vector<SphereLight> spheres;
+  /// Emissive instances; from flat_from on flat lamps, which rays meet like spheres.
   std::vector<std::shared_ptr<const MeshLight>> meshes;
+  std::size_t flat_from = 0;
+  std::vector<std::shared_ptr<const MeshLight>> flat_lamps;  ///< [light], as they were last
   std::vector<int> instance_group, instance_mesh_light;
   std::vector<std::shared_ptr<const MeshLight>> moved_meshes;  ///< [instance], not as in the base
   DistantLights distant;
@@ -39,6 +42,7 @@ struct LightSet::Data {
   void read_lights();
   void add_lights();
   void add_meshes(const std::vector<mat4>& world, const Data* base);
+  void add_flat_lamps();
   void divide_choices();
 
   float importance(std::size_t i, const vec3& from) const {

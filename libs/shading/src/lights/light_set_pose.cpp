@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <ssphh/core/require.h>
+#include <ssphh/scene/area_lamp.h>
 
 #include "../surface/material_lookup.h"
 #include "light_set_data.h"
@@ -46,6 +47,7 @@ LightSet::LightSet(const scene::Scene& scene, const std::vector<mat4>& world, fl
   }
   d.add_lights();
   d.add_meshes(world, nullptr);
+  d.add_flat_lamps();
   std::shared_ptr<const EnvironmentLight> environment;
   if (scene.environment) {
     const int group = scene::light_group_index(d.groups, scene::light_group(*scene.environment));
@@ -64,6 +66,7 @@ LightSet::LightSet(const LightSet& base, const std::vector<mat4>& world,
   d.scene_radius = base.data_->scene_radius;
   d.groups = base.data_->groups;
   d.lights = base.data_->lights;
+  d.flat_lamps = base.data_->flat_lamps;
   pose(base, world, states, surroundings);
 }
 
@@ -81,6 +84,7 @@ void LightSet::pose(const LightSet& base, const std::vector<mat4>& world,
   }
   d.add_lights();
   d.add_meshes(world, base.data_.get());
+  d.add_flat_lamps();
   d.distant.assign(d.lights, environment_light(base.data_->distant.environment(), d.distant.environment(),
                                                *d.scene, surroundings));
   d.divide_choices();
@@ -154,6 +158,21 @@ void LightSet::Data::add_meshes(const std::vector<mat4>& world, const Data* base
   }
 }
 
+/// Those that stand and shine as before are kept.
+void LightSet::Data::add_flat_lamps() {
+  flat_from = meshes.size();
+  flat_lamps.resize(lights.size());
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const PosedLight& posed = lights[i];
+    const vec3 radiance = posed.light.color * posed.light.intensity;
+    if (!scene::is_area_lamp(posed.light.type) || !(luminance(radiance) > 0)) continue;
+    std::shared_ptr<const MeshLight>& lamp = flat_lamps[i];
+    if (!lamp || lamp->world() != posed.world || lamp->emission() != radiance)
+      lamp = std::make_shared<const MeshLight>(posed.light, posed.world, posed.group);
+    if (!lamp->empty()) meshes.push_back(lamp);
+  }
+}
+
 /// Divides the samples between distant and local lights by the irradiance they give, neither below a quarter.
 void LightSet::Data::divide_choices() {
   powers.clear();
@@ -188,6 +207,9 @@ LightSet LightSet::without(std::span<const int> groups) const {
     mesh = static_cast<int>(d.meshes.size());
     d.meshes.push_back(data_->meshes[before]);
   }
+  d.flat_from = d.meshes.size();
+  for (std::size_t i = data_->flat_from; i < data_->meshes.size(); ++i)
+    if (!is_one(data_->meshes[i]->group())) d.meshes.push_back(data_->meshes[i]);
   d.distant = d.distant.without(groups);
   d.divide_choices();
   return rest;

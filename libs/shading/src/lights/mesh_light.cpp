@@ -2,25 +2,43 @@
 
 #include <cmath>
 
+#include <ssphh/scene/area_lamp.h>
+
 #include "../surface/material_lookup.h"
 #include "triangle_map.h"
 
 namespace ssphh::shading {
+
 MeshLight::MeshLight(const scene::Scene& scene, const scene::Instance& instance, const mat4& world, int group)
-    : scene_(&scene),
-      mesh_(&scene.meshes[instance.mesh]),
-      material_(&material_at(scene, scene::instance_material(scene, instance))),
+    : MeshLight(&scene, nullptr, scene.meshes[instance.mesh],
+                material_at(scene, scene::instance_material(scene, instance)), world, world, group) {}
+
+std::shared_ptr<const MeshLight::Body> MeshLight::body_of(const scene::Light& lamp) {
+  Body body{scene::area_lamp_mesh(lamp), {}};
+  body.material.emission = lamp.color * lamp.intensity;
+  return std::make_shared<const Body>(std::move(body));
+}
+
+MeshLight::MeshLight(const scene::Light& lamp, const mat4& world, int group)
+    : MeshLight(body_of(lamp), scene::area_lamp_pose(world), world, group) {}
+
+MeshLight::MeshLight(const scene::Scene* scene, std::shared_ptr<const Body> body, const scene::Mesh& mesh,
+                     const scene::Material& material, const mat4& placed, const mat4& world, int group)
+    : scene_(scene),
+      body_(std::move(body)),
+      mesh_(&mesh),
+      material_(&material),
       world_(world),
       group_(group),
       textured_(material_->emission_texture.texture >= 0 ||
                 material_->alpha_mode != scene::AlphaMode::opaque) {
-  const float mirror = glm::determinant(mat3(world)) < 0 ? -1.0f : 1.0f;
+  const float mirror = glm::determinant(mat3(placed)) < 0 ? -1.0f : 1.0f;
   std::vector<float> weights;
   for (const uvec3& index : mesh_->triangles) {
     // Bring the triangle to the world
-    const vec3 p0(world * vec4(mesh_->positions[index.x], 1));
-    const vec3 p1(world * vec4(mesh_->positions[index.y], 1));
-    const vec3 p2(world * vec4(mesh_->positions[index.z], 1));
+    const vec3 p0(placed * vec4(mesh_->positions[index.x], 1));
+    const vec3 p1(placed * vec4(mesh_->positions[index.y], 1));
+    const vec3 p2(placed * vec4(mesh_->positions[index.z], 1));
     const vec3 n = mirror * glm::cross(p1 - p0, p2 - p0);
     const float length = glm::length(n);
     const bool usable = length > 0 && std::isfinite(length);
@@ -110,6 +128,26 @@ float MeshLight::pdf(const vec3& from, std::uint32_t triangle, float distance, f
   if (!(t.area > 0 && cos_light > 0)) return 0;
   if (!material_->double_sided && !(glm::dot(from - t.p0, t.normal) > 0)) return 0;
   return choice_.probability(triangle) * distance * distance / (t.area * cos_light);
+}
+
+std::optional<EmitterHit> MeshLight::intersect(const vec3& origin, const vec3& direction,
+                                               float max_distance) const {
+  // The plane of all triangles, from its front
+  const float cos_light = facing_ ? -glm::dot(direction, *facing_) : 0;
+  if (!(cos_light > 0)) return std::nullopt;
+  const float distance = glm::dot(origin - center_, *facing_) / cos_light;
+  if (!(distance >= 0 && distance <= max_distance)) return std::nullopt;
+  const vec3 at = origin + distance * direction, way = at - center_;
+  if (glm::dot(way, way) > extent2_ * (1 + 1e-5f)) return std::nullopt;
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    const Triangle& t = triangles_[i];
+    const vec3 d = at - t.p0;
+    const float u = glm::dot(glm::cross(d, t.e2), t.normal), v = glm::dot(glm::cross(t.e1, d), t.normal);
+    if (!(t.area > 0 && u >= 0 && v >= 0 && u + v <= 2 * t.area)) continue;
+    return EmitterHit{distance, material_->emission,
+                      pdf(origin, static_cast<std::uint32_t>(i), distance, cos_light), group_};
+  }
+  return std::nullopt;
 }
 
 float MeshLight::importance(const vec3& from) const {

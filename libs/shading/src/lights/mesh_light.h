@@ -1,5 +1,7 @@
 #pragma once
-/// An emissive instance: its triangles are sampled by area, weighted by their mean emission.
+/// An emissive instance, or a flat lamp: its triangles are sampled by area, weighted by their mean emission.
+
+#include <memory>
 
 #include <ssphh/shading/lights.h>
 #include <ssphh/shading/mesh_view.h>
@@ -12,6 +14,8 @@ class MeshLight {
  public:
   /// Keeps a reference to the scene.
   MeshLight(const scene::Scene& scene, const scene::Instance& instance, const mat4& world, int group);
+  /// A flat lamp (scene/area_lamp.h) whose node stands at `world`.
+  MeshLight(const scene::Light& lamp, const mat4& world, int group);
 
   bool empty() const { return choice_.empty(); }
 
@@ -23,24 +27,40 @@ class MeshLight {
   /// As LightSet::view_mesh.
   std::optional<MeshView> view(const vec3& position, const vec3& normal) const;
   float pdf(const vec3& from, std::uint32_t triangle, float distance, float cos_light) const;
+  /// Where a ray meets the front of a flat lamp, with its radiance and the density of sample(); none beyond
+  /// max_distance.
+  std::optional<EmitterHit> intersect(const vec3& origin, const vec3& direction, float max_distance) const;
 
   float importance(const vec3& from) const;
   float power() const;
   const mat4& world() const { return world_; }
+  const vec3& emission() const { return material_->emission; }
   int group() const { return group_; }
   const scene::Bounds& bounds() const { return bounds_; }
 
  private:
+  /// What a flat lamp brings itself.
+  struct Body {
+    scene::Mesh mesh;
+    scene::Material material;
+  };
   struct Triangle {
     vec3 p0, e1, e2;
     vec3 normal;  ///< unit, front side
     float area;
   };
+  MeshLight(const scene::Scene* scene, std::shared_ptr<const Body> body, const scene::Mesh& mesh,
+            const scene::Material& material, const mat4& placed, const mat4& world, int group);
+  static std::shared_ptr<const Body> body_of(const scene::Light& lamp);
+  MeshLight(std::shared_ptr<const Body> body, const mat4& placed, const mat4& world, int group)
+      : MeshLight(nullptr, body, body->mesh, body->material, placed, world, group) {}
+
   vec3 radiance(std::size_t triangle, const vec2& barycentric) const;
   std::optional<LightSample> sample(const vec3& from, const Distribution::Choice& choice,
                                     const vec2& u) const;
 
-  const scene::Scene* scene_;
+  const scene::Scene* scene_;  ///< of textures; null: a lamp, which has none
+  std::shared_ptr<const Body> body_;
   const scene::Mesh* mesh_;
   const scene::Material* material_;
   mat4 world_;

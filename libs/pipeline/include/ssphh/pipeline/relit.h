@@ -12,8 +12,8 @@
 namespace ssphh::pipeline {
 
 /// A light's pose turned such that −z goes along `direction`, of any length but 0, else throws Error; the
-/// place stays.
-mat4 aimed(const mat4& world, const vec3& direction);
+/// place stays. A flat lamp is turned the shortest way.
+mat4 aimed(scene::LightType type, const mat4& world, const vec3& direction);
 
 /// The light of a session in this scene as a bake would write it, in the state of its last update. `groups`
 /// are the names of the scene's light groups. Throws Cancelled when asked to stop.

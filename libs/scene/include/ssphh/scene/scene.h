@@ -136,11 +136,17 @@ struct Camera {
 };
 
 /// `sphl`: an SPHL that shines, a small lamp whose intensity is a function of the direction (emission.h).
-enum class LightType { point, spot, directional, sphere, sphl };
+/// `rectangle`, `disc`: flat, and shine from the side toward −z of their node alone (area_lamp.h).
+enum class LightType { point, spot, directional, sphere, sphl, rectangle, disc };
 constexpr auto enum_table(LightType) {
   using enum LightType;
-  return std::to_array<EnumName<LightType>>(
-      {{point, "point"}, {spot, "spot"}, {directional, "directional"}, {sphere, "sphere"}, {sphl, "sphl"}});
+  return std::to_array<EnumName<LightType>>({{point, "point"},
+                                             {spot, "spot"},
+                                             {directional, "directional"},
+                                             {sphere, "sphere"},
+                                             {sphl, "sphl"},
+                                             {rectangle, "rectangle"},
+                                             {disc, "disc"}});
 }
 
 /// A light that is not a mesh. Position and direction (−z) are its node's.
@@ -151,11 +157,13 @@ struct Light {
   LightType type = LightType::point;
   vec3 color{1};
   /// point, spot: radiant intensity [W/sr] (glTF's candela read as W/sr); directional: irradiance on a facing
-  /// plane [W/m²] (glTF's lux); sphere: emitted radiance [W sr⁻¹ m⁻²]; sphl: factor on its emission.
+  /// plane [W/m²] (glTF's lux); sphere, rectangle, disc: emitted radiance [W sr⁻¹ m⁻²]; sphl: factor on its
+  /// emission.
   float intensity = 1;
-  /// sphere, sphl: metres, not scaled by the node. What stands within an SPHL shadows nothing, since the SPHL
-  /// shines in its place; no point is lit more than from this distance.
+  /// sphere, sphl, disc: metres, not scaled by the node. What stands within an SPHL shadows nothing, since
+  /// the SPHL shines in its place; no point is lit more than from this distance.
   float radius = 0;
+  vec2 size{0};              ///< rectangle: along the node's x and y [m], likewise
   Emission emission;         ///< sphl: in the node's axes
   float angular_radius = 0;  ///< directional: radians; 0 is a delta light, the sun's is 0.00465
   float inner_cone = 0, outer_cone = pi / 4;  ///< spot, radians from the axis

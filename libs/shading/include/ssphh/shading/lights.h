@@ -24,7 +24,7 @@ struct LightSample {
   int group;
 };
 
-/// What a ray that hits a sphere light, or escapes, finds.
+/// What a ray that hits a sphere or a flat lamp, or escapes, finds.
 struct EmitterHit {
   float distance;
   vec3 radiance;
@@ -40,6 +40,7 @@ struct EmittedPhoton {
 
 class MeshView;
 
+/// `mesh`: an emissive instance or a flat lamp.
 enum class EmitterKind { point, sphere, mesh, directional, disc, environment };
 
 /// One emitter of a LightSet.
@@ -95,8 +96,8 @@ class LightSet {
   /// give stratified photons. Sphere lights send photons outward only.
   std::optional<EmittedPhoton> emit(int i, const vec2& u_place, const vec2& u_direction, const vec3& center,
                                     float radius) const;
-  /// Emissive mesh i as a surface point sees it; empty for other emitters, and for meshes that have no closed
-  /// form: textured, of partial coverage, or with more than MeshView::max_triangles triangles.
+  /// Emissive mesh or flat lamp i as a surface point sees it; empty for other emitters, and for meshes that
+  /// have no closed form: textured, of partial coverage, or with more than MeshView::max_triangles triangles.
   std::optional<MeshView> view_mesh(int i, const vec3& position, const vec3& normal) const;
   /// Radiance from distant emitter i in a direction, with the density of sample_emitter; empty beside a disc
   /// and for delta lights.
@@ -111,12 +112,12 @@ class LightSet {
   /// Group of an emissive instance; −1 when the instance does not emit.
   int instance_group(int instance) const;
 
-  /// All sphere lights that the ray meets before max_distance (they neither block nor reflect). Calls
-  /// visit(EmitterHit) for each.
+  /// All sphere lights, and fronts of flat lamps, that the ray meets before max_distance (they neither block
+  /// nor reflect). Calls visit(EmitterHit) for each.
   template <class Visit>
-  void intersect_spheres(const vec3& origin, const vec3& direction, float max_distance, Visit&& visit) const {
-    for (int i = 0; i < sphere_count(); ++i) {
-      if (const auto hit = intersect_sphere(i, origin, direction, max_distance)) visit(*hit);
+  void intersect_lamps(const vec3& origin, const vec3& direction, float max_distance, Visit&& visit) const {
+    for (int i = 0; i < lamp_count(); ++i) {
+      if (const auto hit = intersect_lamp(i, origin, direction, max_distance)) visit(*hit);
     }
   }
 
@@ -131,9 +132,9 @@ class LightSet {
 
  private:
   LightSet();
-  int sphere_count() const;
-  std::optional<EmitterHit> intersect_sphere(int i, const vec3& origin, const vec3& direction,
-                                             float max_distance) const;
+  int lamp_count() const;
+  std::optional<EmitterHit> intersect_lamp(int i, const vec3& origin, const vec3& direction,
+                                           float max_distance) const;
   int distant_count() const;
   std::optional<EmitterHit> distant(int i, const vec3& direction) const;
 
