@@ -9,6 +9,7 @@
 #include <ssphh/core/nearest_word.h>
 #include <ssphh/lightmap/light.h>
 #include <ssphh/pipeline/lamp_light.h>
+#include <ssphh/scene/area_lamp.h>
 #include <ssphh/scene/query.h>
 
 namespace ssphh::app {
@@ -32,6 +33,7 @@ using scene::LightType;
 std::string problem_of(const scene::Scene& scene, const Light& light) {
   if (light.type == LightType::directional) return "is at infinity";
   if (light.type == LightType::sphl) return "is an SPHL, whose direct light the page cannot draw";
+  if (scene::is_area_lamp(light.type)) return "is flat, and the page cannot draw its direct light";
   if (light.has_profile()) return "has a photometric profile, which the page cannot draw";
   if (light.node >= 0 && scene.nodes[light.node].movable) return "is moved by an animation";
   const std::string group = scene::light_group(light);
