@@ -60,8 +60,11 @@ TEST(LoadScene, KnowsTheModesOfLightGroups) {
 TEST(Aimed, TurnsWhereALampShinesAndLeavesItsPlace) {
   mat4 world(1);
   world[3] = vec4(1, 2, 3, 1);
-  for (const vec3 direction : {vec3(0, -2, 0), vec3(0, 0, -1), vec3(1, 2, -2)}) {
-    const mat4 turned = aimed(world, direction);
+  for (const auto& [type, direction] : {std::pair(scene::LightType::spot, vec3(0, -2, 0)),
+                                        {scene::LightType::spot, vec3(0, 0, -1)},
+                                        {scene::LightType::directional, vec3(1, 2, -2)},
+                                        {scene::LightType::rectangle, vec3(1, 2, -2)}}) {
+    const mat4 turned = aimed(type, world, direction);
     EXPECT_LT(glm::length(-vec3(turned[2]) - glm::normalize(direction)), 1e-6f);
     EXPECT_NEAR(glm::determinant(turned), 1, 1e-6f);
     EXPECT_EQ(turned[3], world[3]);
