@@ -85,6 +85,28 @@ TEST_F(LampLightTest, ElsewhereIsThatOfABakeWithTheLampThere) {
   EXPECT_GT(mean_error(home, truth), 0.1);
 }
 
+TEST_F(LampLightTest, HoldsNothingOfOtherLamps) {
+  const Baked& b = baked();
+  scene::Scene scene = b.scene;
+  for (const char* group : {"", "another"}) {  // one of its own group, and one that has its own
+    scene::Light other = scene.lights[0];
+    if (*group) other.group = group;
+    scene::Node node = scene.nodes[other.node];
+    node.local.translation.x += 0.8f;
+    other.node = static_cast<int>(scene.nodes.size());
+    scene.nodes.push_back(node);
+    scene.lights.push_back(other);
+  }
+  ASSERT_EQ(scene::light_groups(scene).size(), 2u);
+  const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
+  const trace::TransportScene source(geometry, scene);
+  const trace::PathTracer tracer(geometry, scene, 0);
+  const vec3 home(-2.4f, 2.5f, 0.5f);
+  LampLight alone(b.source, b.tracer, b.set, points()), among(source, tracer, b.set, points());
+  const std::vector<float> truth = green(alone.at(0, home));
+  EXPECT_LT(mean_error(green(among.at(0, home)), truth), 0.005);
+}
+
 TEST_F(LampLightTest, BetweenPlacesIsNearTheirBlend) {
   const Baked& b = baked();
   LampLight lamp(b.source, b.tracer, b.set, points());
