@@ -75,6 +75,26 @@ std::vector<Contract> of_lightmaps() {
       refuses("LayOut", "OfAChartThatIsNoNumber", [=] { lightmap::lay_out(of_nan); }, {"size of a chart"}),
       refuses("LayOut", "OfAChartOfLightYears", [=] { lightmap::lay_out(of_light_years); },
               {"size of a chart"}),
+      refuses("LayOut", "OfAChartOfFinerTexels",
+              [] {
+                lightmap::lay_out(std::vector<Chart>(1, {0, {}, vec2(1), -1}));
+              },
+              {"as wide"}),
+      refuses("MakeCharts", "OfOtherInstances",
+              [] { lightmap::make_charts(scene_of_maps(), 0, {}, lightmap::Halvings(99)); },
+              {"each instance"}),
+      refuses("MakeCharts", "OfOtherTriangles",
+              [] {
+                const scene::Scene scene = scene_of_maps();
+                lightmap::make_charts(scene, 0, {}, lightmap::Halvings(scene.instances.size(), {1}));
+              },
+              {"each triangle"}),
+      refuses("PlaceWithin", "BesideThose",
+              [] {
+                const Texels texels = lightmap::make_texels(sound_scene(), 0, charts(), layout());
+                lightmap::place_within(texels, texels.texels[0], 4);
+              },
+              {"no such place"}),
       refuses("PackRectangles", "OfNoSize",
               [] {
                 lightmap::pack(std::vector<glm::ivec2>{{0, 3}}, 9, 9);

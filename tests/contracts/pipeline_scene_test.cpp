@@ -132,32 +132,32 @@ std::vector<Contract> of_methods() {
               [] {
                 const trace::TransportScene source(kept_scene());
                 const trace::PathTracer tracer(kept_scene());
-                pipeline::SurfaceLight(source, tracer, {}, {}, 0, 1);
+                pipeline::SurfaceLight(source, tracer, {}, {}, 0);
               },
               {"probe"}),
-      refuses("SurfaceLight", "OfMinusOneSamples",
+      refuses("SurfaceLight", "OfNoSamples",
               [] {
                 const trace::TransportScene source(kept_scene());
                 const trace::PathTracer tracer(kept_scene());
-                pipeline::SurfaceLight(source, tracer, sound_set(), {}, 0, -1);
+                pipeline::SurfaceLight(source, tracer, sound_set(), {}, 0).direct({}, 0);
               },
-              {"samples"}),
+              {"1 sample"}),
       refuses("SurfaceLight", "AtNoTime",
               [] {
                 const trace::TransportScene source(kept_scene());
                 const trace::PathTracer tracer(kept_scene());
-                pipeline::SurfaceLight(source, tracer, sound_set(), {}, nan, 1);
+                pipeline::SurfaceLight(source, tracer, sound_set(), {}, nan);
               },
               {"time"}),
       gives("SurfaceLight", "ThatWasMoved",
             [] {
               const trace::TransportScene source(kept_scene());
               const trace::PathTracer tracer(kept_scene());
-              pipeline::SurfaceLight first(source, tracer, sound_set(), {}, 0, 1);
-              const vec3 lit = first.irradiance({});
+              pipeline::SurfaceLight first(source, tracer, sound_set(), {}, 0);
+              const vec3 lit = first.held({});
               const pipeline::SurfaceLight second = std::move(first);
-              expect_refusal([&] { first.irradiance({}); }, {"moved from"});
-              EXPECT_EQ(second.irradiance({}), lit);
+              expect_refusal([&] { first.held({}); }, {"moved from"});
+              EXPECT_EQ(second.held({}), lit);
             }),
   };
 }

@@ -13,6 +13,7 @@
 #include <ssphh/lightmap/encode.h>
 #include <ssphh/lightmap/light.h>
 #include <ssphh/lightmap/lit_scene.h>
+#include <ssphh/lightmap/plan.h>
 #include <ssphh/pipeline/bake_scene.h>
 #include <ssphh/pipeline/surface_light.h>
 #include <ssphh/probe_export/target.h>
@@ -22,6 +23,7 @@
 
 #include "commands/command.h"
 #include "options/probe_options.h"
+#include "results/lit_atlas.h"
 #include "results/pictures.h"
 
 namespace ssphh::app {
@@ -40,13 +42,10 @@ struct Baked {
 image::Image atlas_of(const Baked& b, const probes::ProbeSet& set, LightmapResult& result,
                       const Control& control) {
   const LightmapOptions& o = b.options;
-  const pipeline::SurfaceLight light(b.source, b.tracer, set, lookup_params(o.probes, set, {}), o.scene.time,
-                                     o.direct ? o.direct_samples : 0);
+  const pipeline::SurfaceLight light(b.source, b.tracer, set, lookup_params(o.probes, set, {}), o.scene.time);
   result.direct_groups = o.direct ? b.source.light_groups() : light.held_groups();
-  const float factor = o.divide_by_pi ? 1 / pi : 1;
-  return lightmap::light_texels(
-      b.texels, b.places, [&](const rays::SurfacePoint& at) { return factor * light.irradiance(at); },
-      control);
+  return lit_atlas(light, b.texels, b.places, o.direct ? o.direct_samples : 0, o.divide_by_pi ? 1 / pi : 1,
+                   control);
 }
 
 /// Encodes first and writes then: what cannot be written leaves nothing.
@@ -116,10 +115,9 @@ LightmapResult run_lightmap(const LightmapOptions& o, const Control& control) {
   const scene::Scene scene = load_lit_scene(o.scene);
   LightmapResult result;
   // What does not fit is known before anything long begins.
-  const lightmap::Charts charts = lightmap::make_charts(scene, o.scene.time, o.charts, control);
-  if (charts.charts.empty() && !charts.notes.empty())
-    throw Error(o.scene.source, fmt::format("{}", fmt::join(charts.notes, "; ")));
-  const lightmap::Layout layout = lightmap::lay_out(charts.charts, o.layout);
+  lightmap::Plan plan = lightmap::plan_lightmap(scene, o.scene.time, o.charts, o.layout, control);
+  const lightmap::Charts& charts = plan.charts;
+  const lightmap::Layout& layout = plan.layout;
   result.surfaces = surface_count(charts.charts), result.charts = charts.charts.size();
   result.width = layout.width, result.height = layout.height, result.density = layout.density;
   result.notes = charts.notes;
@@ -136,7 +134,8 @@ LightmapResult run_lightmap(const LightmapOptions& o, const Control& control) {
     result.notes.push_back(
         "the probe file holds no surface records: light is the probes', as away from surfaces");
 
-  const lightmap::Texels texels = lightmap::make_texels(scene, o.scene.time, charts.charts, layout, control);
+  const lightmap::Texels texels =
+      lightmap::make_texels(plan.scene, o.scene.time, charts.charts, layout, control);
   const lightmap::Places places =
       lightmap::find_places(texels, rays::PosedWorld(source, o.scene.time), control);
   result.texels = texels.texels.size(), result.hidden = places.hidden_count;
@@ -156,8 +155,8 @@ LightmapResult run_lightmap(const LightmapOptions& o, const Control& control) {
     textures.push_back(encoded(atlas_of(parts, set, result, control), texels, stem));
   }
   for (const Encoded& texture : textures) result.files.push_back(texture.names);
-  const std::vector<std::byte> glb =
-      scene_io::export_glb(lightmap::with_lightmap(scene, charts.charts, layout), extras_of(result, o));
+  const std::vector<std::byte> glb = scene_io::export_glb(
+      lightmap::with_lightmap(std::move(plan.scene), charts.charts, layout), extras_of(result, o));
   for (const Encoded& texture : textures) {
     write_file(texture.names.exr, texture.exr);
     write_file(texture.names.ktx2, texture.ktx2);

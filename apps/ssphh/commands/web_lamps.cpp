@@ -85,13 +85,13 @@ vec3 place_of(const scene::Scene& scene, const Light& light, float time) {
 /// As few texels as are of use; where so few do not hold all charts, as coarse.
 lightmap::Layout coarse_layout(const LitStage& stage) {
   const WebOptions& o = stage.options;
-  const int size = o.movable_size.value_or(std::max(least_size, stage.layout.width / coarser));
+  const int size = o.movable_size.value_or(std::max(least_size, stage.plan.layout.width / coarser));
   try {
-    return lightmap::lay_out(stage.charts.charts, {.size = size});
+    return lightmap::lay_out(stage.plan.charts.charts, {.size = size});
   } catch (const Error&) {
     if (o.movable_size)
       throw Error(fmt::format("--movable-size {}", size), "is too small for the charts", "leave it out");
-    return lightmap::lay_out(stage.charts.charts, {.density = stage.layout.density / coarser});
+    return lightmap::lay_out(stage.plan.charts.charts, {.density = stage.plan.layout.density / coarser});
   }
 }
 
@@ -180,7 +180,7 @@ WebLamps find_web_lamps(const LitStage& stage, std::span<const float> times, std
   const std::vector<std::size_t> lights = lights_named(o, stage.scene);
   if (lights.empty()) return lamps;
   lamps.layout = coarse_layout(stage);
-  files.push_back(hashed_file("charts", "bin", chart_table(stage.layout, lamps.layout)));
+  files.push_back(hashed_file("charts", "bin", chart_table(stage.plan.layout, lamps.layout)));
   lamps.charts = files.back().name;
   for (const std::size_t index : lights) {
     const Light& light = stage.scene.lights[index];
@@ -214,7 +214,7 @@ void add_lamp_pose(const LitStage& stage, const probes::ProbeSet& set, float tim
   if (lamps.lamps.empty()) return;
   const trace::PathTracer tracer(stage.geometry, stage.scene, time);
   const lightmap::Texels texels =
-      lightmap::make_texels(stage.scene, time, stage.charts.charts, lamps.layout, control);
+      lightmap::make_texels(stage.plan.scene, time, stage.plan.charts.charts, lamps.layout, control);
   const lightmap::Places places =
       lightmap::find_places(texels, rays::PosedWorld(stage.source, time), control);
   pipeline::LampLight light(stage.source, tracer, set, places.points, control);
@@ -230,7 +230,7 @@ void add_lamp_pose(const LitStage& stage, const probes::ProbeSet& set, float tim
       const auto irradiance = [&](const rays::SurfacePoint& at) {
         return found[static_cast<std::size_t>(&at - places.points.data())];
       };
-      const image::Image atlas = lightmap::light_texels(texels, places, irradiance, control);
+      const image::Image atlas = lightmap::light_texels(texels, places, irradiance, nullptr, control);
       for (const lightmap::PlacedChart& chart : lamps.layout.places)
         for (int y = 0; y < chart.count.y; ++y)
           to = std::copy_n(atlas.pixels.begin() + texel_offset(atlas, chart.first + glm::ivec2(0, y)),

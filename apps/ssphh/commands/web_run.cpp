@@ -21,6 +21,7 @@
 #include "commands/web_lamps.h"
 #include "commands/web_stage.h"
 #include "options/probe_options.h"
+#include "results/lit_atlas.h"
 #include "results/pictures.h"
 #include "results/web_folder.h"
 
@@ -123,21 +124,19 @@ void add_pose(const LitStage& stage, const probes::ProbeSet& set, float time, st
   const trace::TransportScene& source = stage.source;
   const trace::PathTracer tracer(stage.geometry, stage.scene, time);
   const lightmap::Texels texels =
-      lightmap::make_texels(stage.scene, time, stage.charts.charts, stage.layout, control);
+      lightmap::make_texels(stage.plan.scene, time, stage.plan.charts.charts, stage.plan.layout, control);
   const lightmap::Places places = lightmap::find_places(texels, rays::PosedWorld(source, time), control);
-  const std::vector<float> shares = direct_shares(stage.scene, stage.charts.charts);
+  const std::vector<float> shares = direct_shares(stage.scene, stage.plan.charts.charts);
   for (std::size_t g = 0; g < groups.size(); ++g) {
     PageGroup& group = groups[g];
     const probes::ProbeSet lit = o.merge_groups ? set : probe_export::only_group(set, group.name);
     const auto atlas_of = [&](int direct_samples) {
-      const pipeline::SurfaceLight light(source, tracer, lit, lookup_params(o.probes, lit, {}), time,
-                                         direct_samples);
-      return lightmap::light_texels(
-          texels, places, [&](const rays::SurfacePoint& at) { return light.irradiance(at); }, control);
+      const pipeline::SurfaceLight light(source, tracer, lit, lookup_params(o.probes, lit, {}), time);
+      return lit_atlas(light, texels, places, direct_samples, 1, control);
     };
     image::Image atlas = atlas_of(o.direct_samples);
     if (std::ranges::any_of(shares, [](float share) { return share < 1; }))
-      blend_charts(atlas, atlas_of(0), shares, stage.layout.places);
+      blend_charts(atlas, atlas_of(0), shares, stage.plan.layout.places);
     files.push_back(
         hashed_file(fmt::format("light-{}-{}", g, group.textures.size()), "bin", packed_light(atlas)));
     group.textures.push_back(files.back().name);
@@ -276,15 +275,13 @@ WebResult run_web(const WebOptions& o, const Control& control) {
   result.times = pose_times(o, scene, result.notes);
   lightmap::ChartParams params = o.charts;
   params.moving = true;
-  const lightmap::Charts charts = lightmap::make_charts(scene, o.scene.time, params, control);
-  if (charts.charts.empty() && !charts.notes.empty())
-    throw Error(o.scene.source, fmt::format("{}", fmt::join(charts.notes, "; ")));
-  const lightmap::Layout layout = lightmap::lay_out(charts.charts, o.layout);
+  const lightmap::Plan plan = lightmap::plan_lightmap(scene, o.scene.time, params, o.layout, control);
+  const lightmap::Layout& layout = plan.layout;
   check_size(o, o.merge_groups ? 1 : scene::light_groups(scene).size(), result.times.size(), layout);
 
   std::vector<FolderFile> made;
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
-  const LitStage stage{o, scene, geometry, trace::TransportScene(geometry, scene), charts, layout};
+  const LitStage stage{o, scene, geometry, trace::TransportScene(geometry, scene), plan};
   WebLamps lamps = find_web_lamps(stage, result.times, made, control);
   if (views.empty())
     views.push_back({"view", pipeline::camera_of(scene, "", o.scene.time, stage.geometry), 0, ""});
@@ -305,9 +302,10 @@ WebResult run_web(const WebOptions& o, const Control& control) {
     if (std::abs(time - o.scene.time) < away) away = std::abs(time - o.scene.time), shown = std::move(set);
   }
   take_pictures(stage, shown, views, made, control);
-  FolderFile glb = hashed_file("scene", "glb",
-                               scene_io::export_glb(named_emitters(scene::area_lamps_as_meshes(
-                                   lightmap::with_lightmap(scene, charts.charts, layout), o.scene.time))));
+  FolderFile glb =
+      hashed_file("scene", "glb",
+                  scene_io::export_glb(named_emitters(scene::area_lamps_as_meshes(
+                      lightmap::with_lightmap(plan.scene, plan.charts.charts, layout), o.scene.time))));
 
   json::Value manifest = json::Value::object();
   manifest["format"] = "ssphh-web", manifest["version"] = 1;
@@ -347,7 +345,7 @@ WebResult run_web(const WebOptions& o, const Control& control) {
         layout.density, 1 / layout.density));
   if (!o.movable.empty() && lamps.lamps.empty())
     result.notes.push_back("no lamp of the scene can be dragged: --movable all has nothing to do");
-  result.notes.insert(result.notes.end(), charts.notes.begin(), charts.notes.end());
+  result.notes.insert(result.notes.end(), plan.charts.notes.begin(), plan.charts.notes.end());
   result.seconds = all.seconds() - result.bake_seconds - result.lamp_seconds;
   return result;
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <ssphh/image/image.h>
-#include <ssphh/lightmap/layout.h>
+#include <ssphh/lightmap/plan.h>
 #include <ssphh/trace/transport_scene.h>
 
 #include "commands/web.h"
@@ -20,8 +20,7 @@ struct LitStage {
   const scene::Scene& scene;
   const trace::SharedGeometry geometry;
   const trace::TransportScene source;
-  const lightmap::Charts& charts;
-  const lightmap::Layout& layout;
+  const lightmap::Plan& plan;
 };
 
 /// The first digits of the content's hash stand in the name: a changed file is no old one of a cache.

@@ -8,6 +8,7 @@
 #include <ssphh/core/counted.h>
 #include <ssphh/core/error.h>
 #include <ssphh/core/math.h>
+#include <ssphh/core/require.h>
 #include <ssphh/lightmap/chart.h>
 
 #include "flat.h"
@@ -44,13 +45,15 @@ std::vector<std::uint32_t> by_area(const WorldMesh& mesh) {
 /// `lay(triangle, at)`, which lays a triangle beside the seed or refuses it.
 template <class Begin, class Lay>
 void grow(const WorldMesh& mesh, const Neighbours& neighbours, std::uint32_t instance,
-          std::vector<Chart>& charts, const Begin& begin, const Lay& lay) {
+          std::span<const std::uint8_t> halvings, std::vector<Chart>& charts, const Begin& begin,
+          const Lay& lay) {
+  const auto halvings_of = [&](std::uint32_t t) { return halvings.empty() ? 0 : int{halvings[t]}; };
   constexpr std::int32_t nowhere = -1;
   std::vector<std::int32_t> chart_of(neighbours.size(), nowhere);
   for (const std::uint32_t seed : by_area(mesh)) {
     if (chart_of[seed] != nowhere) continue;
     const auto id = static_cast<std::int32_t>(charts.size());
-    Chart chart{instance, {}, {}};
+    Chart chart{instance, {}, {}, halvings_of(seed)};
     FlatTriangles there;
     begin(seed);
     std::deque<std::uint32_t> waiting = {seed};
@@ -58,7 +61,8 @@ void grow(const WorldMesh& mesh, const Neighbours& neighbours, std::uint32_t ins
       const std::uint32_t triangle = waiting.front();
       waiting.pop_front();
       FlatCorners at;
-      if (chart_of[triangle] != nowhere || !lay(triangle, at) || !(area(at) > 0) || !there.add(at)) continue;
+      if (chart_of[triangle] != nowhere || halvings_of(triangle) != chart.halvings) continue;
+      if (!lay(triangle, at) || !(area(at) > 0) || !there.add(at)) continue;
       chart_of[triangle] = id;
       chart.triangles.push_back({triangle, at, 0});
       for (const std::int32_t next : neighbours[triangle]) {
@@ -78,14 +82,14 @@ void grow(const WorldMesh& mesh, const Neighbours& neighbours, std::uint32_t ins
 }
 
 void own_charts(const WorldMesh& mesh, std::uint32_t instance, const ChartParams& params,
-                std::vector<Chart>& charts) {
+                std::span<const std::uint8_t> halvings, std::vector<Chart>& charts) {
   const Neighbours neighbours = joined_smoothly(mesh, params.crease);
   const float least = std::cos(params.cone);
   Frame frame = Frame::around(vec3(0, 0, 1));
   vec3 origin(0);
   const auto unit_front = [&](const uvec3& t) { return glm::normalize(mesh.front(t)); };
   grow(
-      mesh, neighbours, instance, charts,
+      mesh, neighbours, instance, halvings, charts,
       [&](std::uint32_t seed) {
         const uvec3& t = mesh.mesh.triangles[seed];
         frame = Frame::around(unit_front(t));
@@ -103,7 +107,7 @@ void own_charts(const WorldMesh& mesh, std::uint32_t instance, const ChartParams
 void uv_charts(const WorldMesh& mesh, std::uint32_t instance, std::vector<Chart>& charts) {
   const std::size_t first = charts.size();
   grow(
-      mesh, joined_in_uvs(mesh), instance, charts, [](std::uint32_t) {},
+      mesh, joined_in_uvs(mesh), instance, {}, charts, [](std::uint32_t) {},
       [&](std::uint32_t triangle, FlatCorners& at) {
         at = uv_corners(mesh.mesh, mesh.mesh.triangles[triangle]);
         return true;
@@ -163,10 +167,14 @@ std::string second_uvs_problem(const scene::Mesh& mesh) {
   return "";
 }
 
-Charts make_charts(const scene::Scene& scene, float time, const ChartParams& params, const Control& control) {
+Charts make_charts(const scene::Scene& scene, float time, const ChartParams& params, const Halvings& halvings,
+                   const Control& control) {
   scene::check_indices(scene);
   const std::vector<mat4> world = scene::world_matrices(scene, time);
+  require(halvings.empty() || halvings.size() == scene.instances.size(), "charts",
+          "there are not the texels' widths of each instance");
   Charts out;
+  out.own.assign(scene.instances.size(), 0);
   std::map<std::string, std::size_t> left_out;
   std::map<int, std::string> problems;  // of meshes' second coordinates
   ProgressStage stage(control, "charts", scene.instances.size(), "surfaces");
@@ -192,7 +200,12 @@ Charts make_charts(const scene::Scene& scene, float time, const ChartParams& par
     }
     const WorldMesh in_world(scene, instance, world);
     if (own) {
-      own_charts(in_world, static_cast<std::uint32_t>(i), params, out.charts);
+      out.own[i] = 1;
+      const bool all_alike = halvings.empty() || halvings[i].empty();
+      require(all_alike || halvings[i].size() == mesh.triangles.size(), "charts",
+              "there are not the texels' widths of each triangle");
+      own_charts(in_world, static_cast<std::uint32_t>(i), params,
+                 all_alike ? std::span<const std::uint8_t>() : halvings[i], out.charts);
     } else {
       uv_charts(in_world, static_cast<std::uint32_t>(i), out.charts);
     }

@@ -17,7 +17,6 @@ namespace {
 constexpr std::uint64_t bytes_per_texel = 128;
 constexpr std::array default_sizes = {1024, 2048, 4096};
 constexpr float largest_chart = 1e9f;  ///< [m]
-constexpr float enough = 8;            ///< texels per metre for which no larger atlas is taken unasked
 
 /// Texels between the first and the last centre. A chart that is larger than an atlas can be has one too
 /// many.
@@ -30,7 +29,8 @@ std::optional<Layout> try_density(std::span<const Chart> charts, int size, float
   std::vector<glm::ivec2> sizes;
   double area = 0;
   for (const Chart& chart : charts) {
-    const glm::ivec2 count(steps(chart.size.x, density) + 1, steps(chart.size.y, density) + 1);
+    const float its = std::ldexp(density, -chart.halvings);
+    const glm::ivec2 count(steps(chart.size.x, its) + 1, steps(chart.size.y, its) + 1);
     sizes.push_back(count + 2 * gutter);
     area += static_cast<double>(sizes.back().x) * static_cast<double>(sizes.back().y);
   }
@@ -49,7 +49,8 @@ std::optional<Layout> try_density(std::span<const Chart> charts, int size, float
 std::optional<Layout> densest(std::span<const Chart> charts, int size) {
   double area = 0;
   for (const Chart& chart : charts)
-    area += static_cast<double>(chart.size.x) * static_cast<double>(chart.size.y);
+    area += std::ldexp(static_cast<double>(chart.size.x) * static_cast<double>(chart.size.y),
+                       -2 * chart.halvings);
   float high = 2 * static_cast<float>(size / std::sqrt(area)), low = 1e-5f * high;
   std::optional<Layout> best = try_density(charts, size, low);
   if (!best) return std::nullopt;
@@ -94,13 +95,20 @@ Layout without_density(std::span<const Chart> charts, std::optional<int> size) {
   }
   for (const int s : default_sizes) {
     found = densest(charts, s);
-    if (found && found->density >= enough) return *found;
+    if (found && found->density >= enough_density) return *found;
   }
   if (!found) refuse_size(charts, default_sizes.back());
   return *found;
 }
 
 }  // namespace
+
+bool is_dense_enough(std::span<const Chart> charts, const LayoutParams& params) {
+  if (params.density)
+    return try_density(charts, params.size.value_or(most_size), *params.density).has_value();
+  const std::optional<Layout> found = densest(charts, params.size.value_or(default_sizes.front()));
+  return found && found->density >= enough_density;
+}
 
 Layout lay_out(std::span<const Chart> charts, const LayoutParams& params) {
   if (charts.empty())
@@ -110,6 +118,9 @@ Layout lay_out(std::span<const Chart> charts, const LayoutParams& params) {
     require(chart.size.x >= 0 && chart.size.x <= largest_chart && chart.size.y >= 0 &&
                 chart.size.y <= largest_chart,
             "lightmap", "the size of a chart must be metres of 0 to 1e9");
+  for (const Chart& chart : charts)
+    require(chart.halvings >= 0 && chart.halvings < 32, "lightmap",
+            "a chart's texels must be 1 to 2^31 times as wide");
   if (params.size && (*params.size < 16 || *params.size > most_size))
     throw Error("lightmap", fmt::format("a size of {} texels", *params.size),
                 fmt::format("give 16 to {}", most_size));

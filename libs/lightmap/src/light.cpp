@@ -1,55 +1,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/require.h>
-#include <ssphh/core/sphere.h>
+#include <ssphh/geometry/nearest.h>
 #include <ssphh/lightmap/light.h>
 
 #include "fit.h"
-#include "flat.h"
 
 namespace ssphh::lightmap {
 namespace {
-
-constexpr std::size_t sight_rays = 24;
-/// More backs than that, and a place lies within a body: one before a crack between bodies sees fewer.
-constexpr float most_backs = 0.3f;
-/// More surfaces nearer than a texel than that, and a place lies under another body: where three walls meet
-/// there are three quarters.
-constexpr float most_near = 0.8f;
-/// Rays start so far above their surface, of the world's size.
-constexpr float lift = 1e-5f;
-
-/// Other places of a texel than its own, in texels.
-constexpr std::array<vec2, 8> nearby = {vec2(0.35f, 0),      vec2(-0.35f, 0),     vec2(0, 0.35f),
-                                        vec2(0, -0.35f),     vec2(0.35f, 0.35f),  vec2(-0.35f, 0.35f),
-                                        vec2(0.35f, -0.35f), vec2(-0.35f, -0.35f)};
-
-float texel_edge(const Face& face) {
-  const float flat = std::abs(cross(face.at[1] - face.at[0], face.at[2] - face.at[0]));
-  const float surface =
-      glm::length(glm::cross(face.position[1] - face.position[0], face.position[2] - face.position[0]));
-  return flat > 0 ? std::sqrt(surface / flat) : 0;
-}
-
-/// Whether anybody could see a place from before its surface.
-bool is_open(const rays::PosedWorld& world, const vec3& place, const vec3& front, float edge, float gap) {
-  const Frame frame = Frame::around(front);
-  std::array<rays::RayQuery, sight_rays> rays;
-  std::array<rays::RayHit, sight_rays> hits;
-  for (std::size_t i = 0; i < sight_rays; ++i) {
-    const vec3 direction = spherical_fibonacci(static_cast<int>(i), 2 * sight_rays);
-    rays[i] = {place + gap * front, frame.to_world(vec3(direction.x, direction.y, std::abs(direction.z)))};
-  }
-  world.intersect(rays, hits);
-  const auto share = [&](const auto& is) {
-    return static_cast<float>(std::ranges::count_if(hits, is)) / static_cast<float>(sight_rays);
-  };
-  return share([](const rays::RayHit& hit) { return !hit.escaped() && hit.back; }) <= most_backs &&
-         share([&](const rays::RayHit& hit) { return hit.distance < edge; }) <= most_near;
-}
 
 /// A texel whose centre is not its place is the light there and as much more as the light changes over a
 /// texel's edge before that place, within these factors: bilinear light is linear up to the border.
@@ -70,23 +32,26 @@ class Patch {
   void know(std::uint32_t index) { known_[inside(index)] = 1; }
   bool knows(std::uint32_t index) const { return known_[inside(index)] != 0; }
 
-  /// Of those that `takes(x, y)` and that are not known, those beside known ones become their mean. Whether
-  /// there were any.
+  /// Of those that `takes(x, y)` and that are not known, those beside known ones become their mean; a texel
+  /// in a thin wall between light and darkness that of the dark side.
   template <class Takes>
-  bool spread(const Takes& takes) {
+  void spread(const Takes& takes) {
     Ring ring;
     for (int y = 0; y < size_.y; ++y) {
       for (int x = 0; x < size_.x; ++x) {
+        if (known_[at(x, y)] || !takes(x, y)) continue;
+        const auto visit = [&](const auto& use) {
+          for (int v = std::max(0, y - 1); v <= std::min(size_.y - 1, y + 1); ++v)
+            for (int u = std::max(0, x - 1); u <= std::min(size_.x - 1, x + 1); ++u)
+              if (known_[at(u, v)]) use(atlas_.rgb(low_.x + u, low_.y + v), u == x || v == y ? 1 : 0.5f);
+        };
+        float darkest = std::numeric_limits<float>::infinity();
+        visit([&](const vec3& light, float) { darkest = std::min(darkest, luminance(light)); });
         vec3 sum(0);
         float weight = 0;
-        if (known_[at(x, y)] || !takes(x, y)) continue;
-        for (int v = std::max(0, y - 1); v <= std::min(size_.y - 1, y + 1); ++v) {
-          for (int u = std::max(0, x - 1); u <= std::min(size_.x - 1, x + 1); ++u) {
-            if (!known_[at(u, v)]) continue;
-            const float w = u == x || v == y ? 1 : 0.5f;
-            sum += w * atlas_.rgb(low_.x + u, low_.y + v), weight += w;
-          }
-        }
+        visit([&](const vec3& light, float w) {
+          if (luminance(light) <= most_factor * darkest) sum += w * light, weight += w;
+        });
         if (weight > 0) ring.emplace_back(at(x, y), sum / weight);
       }
     }
@@ -95,7 +60,12 @@ class Patch {
       known_[i] = 1;
       atlas_.set_rgb(low_.x + static_cast<int>(i % columns), low_.y + static_cast<int>(i / columns), value);
     }
-    return !ring.empty();
+  }
+  /// The same for texels of the chart that are not known, beside known ones.
+  void spread_once(std::span<const Texel> texels) {
+    std::vector<std::uint8_t> of_chart(known_.size(), 0);
+    for (const Texel& texel : texels) of_chart[inside(texel.index)] = 1;
+    spread([&](int x, int y) { return of_chart[at(x, y)] != 0; });
   }
   /// Bilinear at a place in the atlas; false where a texel of weight is not known.
   bool look(const vec2& place, vec3& out) const {
@@ -131,6 +101,8 @@ class Patch {
     for (const auto& [index, value] : changed)
       atlas_.set_rgb(static_cast<int>(index % w), static_cast<int>(index / w), value);
   }
+
+ private:
   std::size_t inside(std::uint32_t index) const {
     const auto w = static_cast<std::uint32_t>(width_);
     return at(static_cast<int>(index % w) - low_.x, static_cast<int>(index / w) - low_.y);
@@ -139,58 +111,63 @@ class Patch {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.x) + static_cast<std::size_t>(x);
   }
 
- private:
   glm::ivec2 low_, size_;
   int width_;
   image::Image& atlas_;
   std::vector<std::uint8_t> known_;
 };
 
+/// Light of hidden texels that no chart lights: that of the nearest place in the world that is lit. A crack
+/// between two bodies that touch shows what lies within it.
+std::vector<std::pair<std::uint32_t, vec3>> light_nearby(const Texels& texels, const Places& places,
+                                                         std::span<const std::uint8_t> is_lit,
+                                                         std::span<const Patch> patches,
+                                                         const image::Image& atlas, const Control& control) {
+  std::vector<std::size_t> unlit;
+  for (std::size_t chart = 0; chart < patches.size(); ++chart)
+    for (std::size_t i = texels.first[chart]; i < texels.first[chart + 1]; ++i)
+      if (!patches[chart].knows(texels.texels[i].index)) unlit.push_back(i);
+  std::vector<std::pair<std::uint32_t, vec3>> out(unlit.size());
+  if (unlit.empty()) return out;
+  std::vector<std::size_t> lit;
+  std::vector<vec3> at;
+  for (std::size_t i = 0; i < texels.texels.size(); ++i)
+    if (is_lit[i]) lit.push_back(i), at.push_back(places.points[i].position);
+  const geometry::NearestPoints nearest(at);
+  parallel_for(
+      unlit.size(), 256,
+      [&](std::size_t k) {
+        const auto w = static_cast<std::uint32_t>(atlas.width);
+        std::array<geometry::Near, 1> found;
+        nearest.find(places.points[unlit[k]].position, found);
+        const std::uint32_t index = texels.texels[lit[static_cast<std::size_t>(found[0].index)]].index;
+        out[k] = {texels.texels[unlit[k]].index,
+                  atlas.rgb(static_cast<int>(index % w), static_cast<int>(index / w))};
+      },
+      control);
+  return out;
+}
+
 void set(image::Image& atlas, std::uint32_t index, const vec3& value) {
   const auto w = static_cast<std::uint32_t>(atlas.width);
   atlas.set_rgb(static_cast<int>(index % w), static_cast<int>(index / w), value);
 }
 
-}  // namespace
-
-Places find_places(const Texels& texels, const rays::PosedWorld& world, const Control& control) {
-  const std::size_t count = texels.texels.size();
-  for (const Texel& texel : texels.texels)
-    require(texel.face < texels.faces.size(), "lightmap texels", "a texel is of no face");
-  Places out{std::vector<rays::SurfacePoint>(count), std::vector<std::uint8_t>(count, 0), 0};
-  const scene::Bounds& bounds = world.bounds();
-  const float gap = lift * (bounds.empty() ? 0 : bounds.radius() + max_component(glm::abs(bounds.center())));
-  ProgressStage stage(control, "places of texels", count, "texels");
-  parallel_for(
-      count, 256,
-      [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          const Texel& texel = texels.texels[i];
-          const Face& face = texels.faces[texel.face];
-          const float edge = texel_edge(face);
-          const auto open = [&](const rays::SurfacePoint& place) {
-            return is_open(world, place.position, face.front, edge, gap);
-          };
-          out.points[i] = place_of(texels, texel);
-          if (open(out.points[i])) continue;
-          const auto other = std::ranges::find_if(
-              nearby, [&](const vec2& step) { return open(place_of(texels, texel, step)); });
-          if (other != nearby.end()) {
-            out.points[i] = place_of(texels, texel, *other);
-          } else {
-            out.hidden[i] = 1;
-          }
-        }
-        stage.advance(end - begin);
-      },
-      control);
-  for (const std::uint8_t hidden : out.hidden) out.hidden_count += hidden;
-  return out;
+/// Mean over the places within a texel that are reached, or at its own where none is.
+vec3 mean_light(const Texels& texels, const Places& places, std::size_t i, const IrradianceAt& light) {
+  vec3 sum(0);
+  int count = 0;
+  for (int k = 0; k < places_within; ++k)
+    if (places.reached[i] >> k & 1) sum += light(place_within(texels, texels.texels[i], k)), ++count;
+  return count > 0 ? sum / static_cast<float>(count) : light(places.points[i]);
 }
 
+}  // namespace
+
 image::Image light_texels(const Texels& texels, const Places& places, const IrradianceAt& irradiance,
-                          const Control& control) {
-  require(places.points.size() == texels.texels.size() && places.hidden.size() == texels.texels.size(),
+                          const IrradianceAt& sharp, const Control& control) {
+  require(places.points.size() == texels.texels.size() && places.hidden.size() == texels.texels.size() &&
+              places.reached.size() == texels.texels.size(),
           "lightmap", "the places are of other texels");
   require(irradiance != nullptr, "lightmap", "nothing tells the irradiance of a place");
   require_places(texels.places, texels.width, texels.height, "lightmap texels");
@@ -201,36 +178,49 @@ image::Image light_texels(const Texels& texels, const Places& places, const Irra
   require(texels.first.size() == texels.places.size() + 1 && std::ranges::is_sorted(texels.first) &&
               texels.first.back() <= texels.texels.size(),
           "lightmap texels", "charts do not begin in their order");
+  // Where nothing is open it is not known what is seen.
+  std::vector<std::uint8_t> lit = places.hidden;
+  if (std::ranges::find(lit, 0) != lit.end())
+    for (std::uint8_t& is : lit) is = is == 0;
   image::Image atlas(texels.width, texels.height);
   ProgressStage stage(control, "light of texels", texels.texels.size(), "texels");
   parallel_for(
       texels.texels.size(), 64,
       [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-          if (!places.hidden[i]) set(atlas, texels.texels[i].index, irradiance(places.points[i]));
+        for (std::size_t i = begin; i < end; ++i) {
+          if (!lit[i]) continue;
+          const vec3 smooth = irradiance(places.points[i]);
+          set(atlas, texels.texels[i].index, sharp ? smooth + mean_light(texels, places, i, sharp) : smooth);
+        }
         stage.advance(end - begin);
       },
       control);
+  std::vector<Patch> patches;
+  patches.reserve(texels.places.size());
+  for (const PlacedChart& place : texels.places) patches.emplace_back(place, texels.width, atlas);
+  const auto of_chart = [&](std::size_t chart) {
+    return std::span(texels.texels)
+        .subspan(texels.first[chart], texels.first[chart + 1] - texels.first[chart]);
+  };
   parallel_for(
-      texels.places.size(), 1,
+      patches.size(), 1,
       [&](std::size_t chart) {
-        Patch patch(texels.places[chart], texels.width, atlas);
-        std::vector<std::uint8_t> dark(static_cast<std::size_t>(texels.places[chart].count.x + 2 * gutter) *
-                                       static_cast<std::size_t>(texels.places[chart].count.y + 2 * gutter));
-        const std::size_t begin = texels.first[chart], end = texels.first[chart + 1];
-        bool any = false;
-        for (std::size_t i = begin; i < end; ++i) any = any || !places.hidden[i];
-        for (std::size_t i = begin; i < end; ++i) {
-          const std::uint32_t index = texels.texels[i].index;
-          // Nobody sees such a chart; if it was taken for one by mistake, its light is not.
-          if (!any) set(atlas, index, irradiance(places.points[i]));
-          if (!any || !places.hidden[i]) patch.know(index);
-          dark[patch.inside(index)] = 1;
-        }
-        patch.extrapolate(std::span(texels.texels).subspan(begin, end - begin));
-        while (patch.spread([&](int x, int y) { return dark[patch.at(x, y)] != 0; })) {
-        }
-        for (int ring = 0; ring < gutter; ++ring) patch.spread([](int, int) { return true; });
+        Patch& patch = patches[chart];
+        for (std::size_t i = texels.first[chart]; i < texels.first[chart + 1]; ++i)
+          if (lit[i]) patch.know(texels.texels[i].index);
+        patch.extrapolate(of_chart(chart));
+        // What filters read beside light.
+        patch.spread_once(of_chart(chart));
+      },
+      control);
+  const std::vector<std::pair<std::uint32_t, vec3>> unseen =
+      light_nearby(texels, places, lit, patches, atlas, control);
+  for (const auto& [index, value] : unseen) set(atlas, index, value);
+  parallel_for(
+      patches.size(), 1,
+      [&](std::size_t chart) {
+        for (const Texel& texel : of_chart(chart)) patches[chart].know(texel.index);
+        for (int ring = 0; ring < gutter; ++ring) patches[chart].spread([](int, int) { return true; });
       },
       control);
   return atlas;

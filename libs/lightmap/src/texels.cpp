@@ -23,10 +23,13 @@ struct Nearest {
   float distance2 = 0;
 };
 
-Nearest nearest(const std::array<vec2, 3>& t, const vec2& p) {
+vec3 shares_of(const std::array<vec2, 3>& t, const vec2& p) {
   const float all = cross(t[1] - t[0], t[2] - t[0]);
-  const vec3 inside =
-      vec3(cross(t[1] - p, t[2] - p), cross(t[2] - p, t[0] - p), cross(t[0] - p, t[1] - p)) / all;
+  return vec3(cross(t[1] - p, t[2] - p), cross(t[2] - p, t[0] - p), cross(t[0] - p, t[1] - p)) / all;
+}
+
+Nearest nearest(const std::array<vec2, 3>& t, const vec2& p) {
+  const vec3 inside = shares_of(t, p);
   if (inside.x >= 0 && inside.y >= 0 && inside.z >= 0) return {inside / (inside.x + inside.y + inside.z), 0};
   Nearest best{{}, std::numeric_limits<float>::infinity()};
   for (int k = 0; k < 3; ++k) {
@@ -42,15 +45,27 @@ Nearest nearest(const std::array<vec2, 3>& t, const vec2& p) {
   return best;
 }
 
-/// Off the chart's border.
-vec3 within(const Face& face, vec3 share) {
-  const float twice_area = std::abs(cross(face.at[1] - face.at[0], face.at[2] - face.at[0]));
+/// Off the chart's border: straight away from it or, where the face is too sharp for that, along it.
+vec3 within(const Face& face, const vec3& share) {
+  const std::array<vec2, 3>& at = face.at;
+  const float twice_area = cross(at[1] - at[0], at[2] - at[0]);
+  const vec2 from = share.x * at[0] + share.y * at[1] + share.z * at[2];
   vec3 least(0);
-  for (int k = 0; k < 3; ++k) {
-    if (!(face.open >> k & 1)) continue;
-    const float length = glm::length(face.at[(k + 1) % 3] - face.at[k]);
-    least[(k + 2) % 3] = std::min(0.3f, inset * length / twice_area);
+  vec2 p = from;
+  for (int round = 0; round < 3; ++round) {  // off one side of a corner, and then off the other
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!(face.open >> k & 1)) continue;
+      const vec2 edge = at[(k + 1) % 3] - at[k];
+      const float length = glm::length(edge), height = std::abs(twice_area) / length;
+      const auto opposite = static_cast<int>((k + 2) % 3);
+      least[opposite] = std::min(0.3f, inset / height);
+      const vec2 inward = (twice_area > 0 ? vec2(-edge.y, edge.x) : vec2(edge.y, -edge.x)) / length;
+      p += std::max(0.0f, least[opposite] * height - glm::dot(p - at[k], inward)) * inward;
+    }
   }
+  if (p == from) return share;
+  const vec3 straight = shares_of(at, p);
+  if (glm::all(glm::greaterThanEqual(straight, 0.99f * least))) return straight;
   const vec3 lifted = glm::max(share, least), spare = lifted - least;
   const float over = lifted.x + lifted.y + lifted.z - 1, free = spare.x + spare.y + spare.z;
   return free > 0 ? lifted - spare * (over / free) : lifted;
@@ -81,9 +96,10 @@ std::vector<Texel> chart_texels(std::span<const Face> faces, std::uint32_t first
                                 const PlacedChart& place, int width) {
   const glm::ivec2 low = place.first - gutter, size = place.count + 2 * gutter;
   struct Best {
-    float distance2 = std::numeric_limits<float>::infinity();
+    float away2 = std::numeric_limits<float>::infinity();  ///< of its place from its centre
     std::uint32_t face = 0;
     vec3 share{0};
+    vec2 way{0};
   };
   std::vector<Best> best(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
   for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -98,25 +114,26 @@ std::vector<Texel> chart_texels(std::span<const Face> faces, std::uint32_t first
         const Nearest found = nearest(at, centre);
         // A filter reaches less than a texel along each axis.
         if (found.distance2 > 2) continue;
+        // Off the border may be in the neighbour.
+        const vec3 share = within(faces[f], found.share);
+        const vec2 its = share.x * at[0] + share.y * at[1] + share.z * at[2];
+        const bool is_centre = found.distance2 == 0 && share == found.share;
+        const vec2 way = is_centre ? vec2(0) : centre - its;
+        const float away2 = glm::dot(way, way);
         Best& known = best[static_cast<std::size_t>(y - low.y) * static_cast<std::size_t>(size.x) +
                            static_cast<std::size_t>(x - low.x)];
-        if (found.distance2 < known.distance2)
-          known = {found.distance2, static_cast<std::uint32_t>(f), found.share};
+        if (away2 < known.away2) known = {away2, static_cast<std::uint32_t>(f), share, way};
       }
     }
   }
   std::vector<Texel> out;
   for (std::size_t i = 0; i < best.size(); ++i) {
-    if (std::isinf(best[i].distance2)) continue;
+    if (std::isinf(best[i].away2)) continue;
     const auto columns = static_cast<std::size_t>(size.x);
     const std::size_t x = static_cast<std::size_t>(low.x) + i % columns,
                       y = static_cast<std::size_t>(low.y) + i / columns;
-    const Face& face = faces[best[i].face];
-    const vec3 share = within(face, best[i].share);
-    const vec2 way = vec2(x, y) + 0.5f - (share.x * face.at[0] + share.y * face.at[1] + share.z * face.at[2]);
     out.push_back({static_cast<std::uint32_t>(y * static_cast<std::size_t>(width) + x),
-                   first_face + best[i].face, share,
-                   share == best[i].share && best[i].distance2 == 0 ? vec2(0) : way});
+                   first_face + best[i].face, best[i].share, best[i].way});
   }
   return out;
 }

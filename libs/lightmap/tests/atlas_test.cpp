@@ -16,11 +16,6 @@ namespace {
 
 const vec3 constant(1, 2, 3);
 
-vec3 value_of(const image::Image& atlas, std::uint32_t index) {
-  const auto w = static_cast<std::uint32_t>(atlas.width);
-  return atlas.rgb(static_cast<int>(index % w), static_cast<int>(index / w));
-}
-
 /// A field with a slope in each direction, different for each colour.
 constexpr float slope = 0.7f;
 vec3 linear(const vec3& at) {
@@ -172,40 +167,6 @@ TEST(Atlas, AMirroredInstanceIsLitFromItsFront) {
   EXPECT_EQ(places.hidden_count, 0u);
 }
 
-TEST(Atlas, TexelsWithinOrUnderABodyTakeTheLightAroundIt) {
-  // A box of 1 m stands in the middle of a floor of 4 m and reaches a little below it; one of a centimetre's
-  // gap lies over a corner.
-  const scene::Scene scene = scene_of({scene::make_quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}),
-                                       scene::make_box({-0.5f, -0.1f, -0.5f}, {0.5f, 1, 0.5f}),
-                                       scene::make_box({1.4f, 0.01f, 1.4f}, {2.2f, 0.3f, 2.2f})});
-  const Unwrapped u(scene, {.density = 12.0f});
-  const test::TriangleSource source(scene);
-  const auto within = [](const vec3& p, float low, float high) {
-    return p.x > low && p.x < high && p.z > low && p.z < high && p.y > -0.05f && p.y < 0.005f;
-  };
-  const Places places = find_places(u.texels, rays::PosedWorld(source, 0));
-  std::size_t floor = 0;
-  const float texel = 1 / 12.0f;
-  for (std::size_t i = 0; i < u.texels.first[1]; ++i) {
-    const vec3 p = places.points[i].position;
-    if (within(p, -0.5f, 0.5f) || within(p, 1.4f + texel, 2.1f)) {
-      EXPECT_TRUE(places.hidden[i]) << p.x << ' ' << p.z;
-    }
-    const bool far = !within(p, -0.5f - texel, 0.5f + texel) && !within(p, 1.4f - texel, 2.2f);
-    if (far) {
-      EXPECT_FALSE(places.hidden[i]) << p.x << ' ' << p.z;
-    }
-    floor += places.hidden[i];
-  }
-  EXPECT_GT(floor, 100u);
-  const image::Image atlas = light_texels(u.texels, places, [&](const rays::SurfacePoint& at) {
-    return within(at.position, -0.5f, 0.5f) || within(at.position, 1.45f, 2.1f) ? vec3(1000) : constant;
-  });
-  for (std::size_t i = 0; i < u.texels.first[1]; ++i) {
-    EXPECT_NEAR(value_of(atlas, u.texels.texels[i].index).z, 3, 1e-4f);
-  }
-}
-
 TEST(Atlas, OneOpenTexelLightsItsWholeChart) {
   const Unwrapped u(scene_of({scene::make_quad({0, 0, 0}, {2, 0, 0}, {0, 0, -1})}), {.size = 32});
   const std::size_t count = u.texels.texels.size();
@@ -310,7 +271,7 @@ TEST(Atlas, StopsWhenAsked) {
   EXPECT_THROW(find_places(u.texels, rays::PosedWorld(open_space, 0), control), Cancelled);
   const Places places = find_places(u.texels, rays::PosedWorld(open_space, 0));
   EXPECT_THROW(light_texels(
-                   u.texels, places, [](const rays::SurfacePoint&) { return vec3(1); }, control),
+                   u.texels, places, [](const rays::SurfacePoint&) { return vec3(1); }, nullptr, control),
                Cancelled);
 }
 

@@ -210,7 +210,7 @@ TEST(Charts, WhatMovesShinesOrIsClearHasNone) {
 TEST(Charts, StopWhenAsked) {
   CancelToken stop;
   stop.request();
-  EXPECT_THROW(make_charts(scene_of({one_triangle()}), 0, {}, {nullptr, &stop}), Cancelled);
+  EXPECT_THROW(make_charts(scene_of({one_triangle()}), 0, {}, {}, {nullptr, &stop}), Cancelled);
 }
 
 }  // namespace

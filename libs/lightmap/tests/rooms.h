@@ -4,6 +4,7 @@
 #include <functional>
 
 #include <ssphh/lightmap/light.h>
+#include <ssphh/lightmap/plan.h>
 #include <ssphh/scene/primitives.h>
 
 #include "ray_source.h"
@@ -34,6 +35,11 @@ struct Unwrapped {
         charts(make_charts(scene, 0, by)),
         layout(lay_out(charts.charts, params)),
         texels(make_texels(scene, 0, charts.charts, layout)) {}
+  explicit Unwrapped(Plan plan)
+      : scene(std::move(plan.scene)),
+        charts(std::move(plan.charts)),
+        layout(std::move(plan.layout)),
+        texels(make_texels(scene, 0, charts.charts, layout)) {}
 
   image::Image atlas(const IrradianceAt& field, const rays::TransportSource& source = open_space) const {
     return light_texels(texels, find_places(texels, rays::PosedWorld(source, 0)), field);
@@ -47,6 +53,11 @@ struct Unwrapped {
 
 inline vec3 point(const std::array<vec3, 3>& corners, const vec3& share) {
   return share.x * corners[0] + share.y * corners[1] + share.z * corners[2];
+}
+
+inline vec3 value_of(const image::Image& atlas, std::uint32_t index) {
+  const auto w = static_cast<std::uint32_t>(atlas.width);
+  return atlas.rgb(static_cast<int>(index % w), static_cast<int>(index / w));
 }
 
 /// Shares of a triangle's corners: the corners, middles of edges, and places inside.

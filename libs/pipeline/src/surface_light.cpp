@@ -7,14 +7,10 @@
 namespace ssphh::pipeline {
 
 SurfaceLight::SurfaceLight(const trace::TransportScene& source, const trace::PathTracer& tracer,
-                           const probes::ProbeSet& set, const probes::LookupParams& params, float time,
-                           int direct_samples)
+                           const probes::ProbeSet& set, const probes::LookupParams& params, float time)
     : lookup_(probes::make_lookup(probes::LookupMethod::irradiance, set, tracer, params)),
-      held_(lookup_->direct_groups()),
-      samples_(direct_samples) {
+      held_(lookup_->direct_groups()) {
   require(std::isfinite(time), "time", "it must be a finite number of seconds");
-  require(direct_samples >= 0, "light of surfaces", "fewer than 0 samples");
-  if (direct_samples == 0) return;
   std::vector<mat4> poses;
   for (int part = 0; part < source.part_count(); ++part) poses.push_back(source.part_pose(part, time));
   direct_ = source.direct_light(source.lights(time), poses);
@@ -27,11 +23,12 @@ SurfaceLight::SurfaceLight(const trace::TransportScene& source, const trace::Pat
   }
 }
 
-vec3 SurfaceLight::irradiance(const rays::SurfacePoint& at) const {
-  vec3 sum = lookup_->irradiance(at);
+vec3 SurfaceLight::direct(const rays::SurfacePoint& at, int samples) const {
+  require(samples >= 1, "light of surfaces", "fewer than 1 sample");
+  vec3 sum(0);
   for (const auto& [group, scale] : groups_) {
-    sum += scale * direct_->irradiance_by_normal(group, at, samples_)[3];
-    if (direct_->mirrors()) sum += scale * direct_->mirrored_by_normal(group, at, samples_)[3];
+    sum += scale * direct_->irradiance_by_normal(group, at, samples)[3];
+    if (direct_->mirrors()) sum += scale * direct_->mirrored_by_normal(group, at, samples)[3];
   }
   return sum;
 }

@@ -24,8 +24,12 @@ struct FlatTriangle {
 struct Chart {
   std::uint32_t instance = 0;
   std::vector<FlatTriangle> triangles;
-  vec2 size{0};  ///< [m]
+  vec2 size{0};      ///< [m]
+  int halvings = 0;  ///< its texels are as wide as 2 to that many of the atlas'
 };
+
+/// Of each instance's triangles, what Chart::halvings is of charts; empty: none.
+using Halvings = std::vector<std::vector<std::uint8_t>>;
 
 /// Where charts come from: `own`: pieces whose normals stay near that of one triangle, projected on its
 /// plane; `scene`: islands of the second texture coordinates, refused where these are not fit; `automatic`:
@@ -46,14 +50,16 @@ struct ChartParams {
 struct Charts {
   std::vector<Chart> charts;       ///< by instance
   std::vector<std::string> notes;  ///< what has none and why, a line each
+  std::vector<std::uint8_t> own;   ///< of each instance, 1: its charts do not follow its coordinates
 };
 
 /// Charts of all surfaces that stand still, or of all, posed at `time`: not of unlit materials and of clear
 /// glass, of triangles without area, nor where a material's textures take both sets of coordinates, which
-/// leaves none for a lightmap. Throws Error with UvChoice::scene for a mesh without second coordinates, or
-/// whose second coordinates leave [0, 1] or overlap; Cancelled when asked to stop.
+/// leaves none for a lightmap. Own charts hold triangles of equal `halvings`. Throws Error with
+/// UvChoice::scene for a mesh without second coordinates, or whose second coordinates leave [0, 1] or
+/// overlap; Cancelled when asked to stop.
 Charts make_charts(const scene::Scene& scene, float time, const ChartParams& params = {},
-                   const Control& control = {});
+                   const Halvings& halvings = {}, const Control& control = {});
 
 /// What is wrong with a mesh's second texture coordinates as those of a lightmap; empty: nothing.
 std::string second_uvs_problem(const scene::Mesh& mesh);

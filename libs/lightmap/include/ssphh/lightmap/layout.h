@@ -12,6 +12,8 @@ namespace ssphh::lightmap {
 /// Texels around each chart that hold its light, too: filters of charts beside each other do not meet.
 inline constexpr int gutter = 2;
 inline constexpr int most_size = 8192;
+/// Texels per metre for which no larger atlas is taken unasked.
+inline constexpr float enough_density = 8;
 
 /// A chart in the atlas. Its border passes through the centres of the first and the last texel of both axes.
 struct PlacedChart {
@@ -25,7 +27,7 @@ struct PlacedChart {
 
 struct Layout {
   int width = 0, height = 0;  ///< texels
-  float density = 0;          ///< texels per metre that were asked for or found
+  float density = 0;          ///< texels per metre that were asked for or found, of charts without halvings
   std::vector<PlacedChart> places;
 };
 
@@ -35,6 +37,10 @@ struct LayoutParams {
   std::optional<int> size = {};
   std::optional<float> density = {};  ///< texels per metre; none: as many as fit
 };
+
+/// Whether the smallest atlas that may be taken unasked, or the one asked for, holds the charts at the
+/// density asked for, or at enough_density; of a density without a size, the largest atlas there is.
+bool is_dense_enough(std::span<const Chart> charts, const LayoutParams& params);
 
 /// Throws Error, before memory is taken, where the charts do not fit, with a size or a density that does.
 Layout lay_out(std::span<const Chart> charts, const LayoutParams& params = {});

@@ -18,14 +18,15 @@ namespace ssphh::pipeline {
 /// the tracer.
 class SurfaceLight {
  public:
-  /// `source` and `tracer` are of one scene, at `time` [s]. `direct_samples`: of each emitter with an extent;
-  /// 0: only what the lookup holds. Throws Error as probes::make_lookup does, and for less than 0 samples.
+  /// `source` and `tracer` are of one scene, at `time` [s]. Throws Error as probes::make_lookup does.
   SurfaceLight(const trace::TransportScene& source, const trace::PathTracer& tracer,
-               const probes::ProbeSet& set, const probes::LookupParams& params, float time,
-               int direct_samples);
+               const probes::ProbeSet& set, const probes::LookupParams& params, float time);
 
-  /// [W/m²] at the point's side, by its normal; the same bits at every call.
-  vec3 irradiance(const rays::SurfacePoint& at) const;
+  /// [W/m²] at the point's side, by its normal, of what the lookup holds: it is smooth.
+  vec3 held(const rays::SurfacePoint& at) const { return lookup_->irradiance(at); }
+  /// The rest, straight from emitters, by so many samples of each with an extent: shadows have edges. The
+  /// same bits at every call. Throws Error for less than 1 sample.
+  vec3 direct(const rays::SurfacePoint& at, int samples) const;
   /// Light groups whose direct light the lookup holds.
   const std::vector<std::string>& held_groups() const { return held_; }
 
@@ -34,7 +35,6 @@ class SurfaceLight {
   std::vector<std::string> held_;
   std::unique_ptr<rays::DirectLight> direct_;
   std::vector<std::pair<int, vec3>> groups_;
-  int samples_;
 };
 
 }  // namespace ssphh::pipeline
