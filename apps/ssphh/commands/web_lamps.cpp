@@ -87,11 +87,12 @@ lightmap::Layout coarse_layout(const LitStage& stage) {
   const WebOptions& o = stage.options;
   const int size = o.movable_size.value_or(std::max(least_size, stage.plan.layout.width / coarser));
   try {
-    return lightmap::lay_out(stage.plan.charts.charts, {.size = size});
+    return lightmap::lay_out(stage.plan.charts.charts, {.size = size, .least = 1});
   } catch (const Error&) {
     if (o.movable_size)
       throw Error(fmt::format("--movable-size {}", size), "is too small for the charts", "leave it out");
-    return lightmap::lay_out(stage.plan.charts.charts, {.density = stage.plan.layout.density / coarser});
+    return lightmap::lay_out(stage.plan.charts.charts,
+                             {.density = stage.plan.layout.density / coarser, .least = 1});
   }
 }
 

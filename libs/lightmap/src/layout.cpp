@@ -25,11 +25,12 @@ int steps(float metres, float density) {
   return std::max(1, static_cast<int>(std::lround(texels)));
 }
 
-std::optional<Layout> try_density(std::span<const Chart> charts, int size, float density) {
+std::optional<Layout> try_density(std::span<const Chart> charts, int size, float density, int least) {
   std::vector<glm::ivec2> sizes;
   double area = 0;
   for (const Chart& chart : charts) {
-    const float its = std::ldexp(density, -chart.halvings);
+    float its = std::ldexp(density, -chart.halvings);
+    if (chart.size.x > 0) its = std::max(its, static_cast<float>(least) / chart.size.x);
     const glm::ivec2 count(steps(chart.size.x, its) + 1, steps(chart.size.y, its) + 1);
     sizes.push_back(count + 2 * gutter);
     area += static_cast<double>(sizes.back().x) * static_cast<double>(sizes.back().y);
@@ -46,17 +47,17 @@ std::optional<Layout> try_density(std::span<const Chart> charts, int size, float
 }
 
 /// The densest that fits, within a hundredth; none where not even four texels a chart do.
-std::optional<Layout> densest(std::span<const Chart> charts, int size) {
+std::optional<Layout> densest(std::span<const Chart> charts, int size, int least) {
   double area = 0;
   for (const Chart& chart : charts)
     area += std::ldexp(static_cast<double>(chart.size.x) * static_cast<double>(chart.size.y),
                        -2 * chart.halvings);
   float high = 2 * static_cast<float>(size / std::sqrt(area)), low = 1e-5f * high;
-  std::optional<Layout> best = try_density(charts, size, low);
-  if (!best) return std::nullopt;
+  std::optional<Layout> best = try_density(charts, size, low, least);
+  if (!best) return least > 1 ? densest(charts, size, 1) : std::nullopt;
   while (high > 1.01f * low) {
     const float middle = std::sqrt(low * high);
-    if (std::optional<Layout> found = try_density(charts, size, middle)) {
+    if (std::optional<Layout> found = try_density(charts, size, middle, least)) {
       best = std::move(found), low = middle;
     } else {
       high = middle;
@@ -73,12 +74,13 @@ std::optional<Layout> densest(std::span<const Chart> charts, int size) {
       size < most_size ? fmt::format("try --size {}", std::min(most_size, 2 * size)) : "split the scene");
 }
 
-Layout with_density(std::span<const Chart> charts, std::optional<int> size, float density) {
-  constexpr int least = 64;
-  for (int s = size.value_or(least); s <= size.value_or(most_size); s *= 2)
-    if (std::optional<Layout> found = try_density(charts, s, density)) return *found;
+Layout with_density(std::span<const Chart> charts, std::optional<int> size, float density, int least) {
+  constexpr int smallest = 64;
+  for (const int few : {least, 1})
+    for (int s = size.value_or(smallest); s <= size.value_or(most_size); s *= 2)
+      if (std::optional<Layout> found = try_density(charts, s, density, few)) return *found;
   const int largest = size.value_or(most_size);
-  const std::optional<Layout> fits = densest(charts, largest);
+  const std::optional<Layout> fits = densest(charts, largest, least);
   if (!fits) refuse_size(charts, largest);
   throw Error("lightmap",
               fmt::format("{:g} texels per metre do not fit into {} × {} texels", density, largest, largest),
@@ -86,15 +88,15 @@ Layout with_density(std::span<const Chart> charts, std::optional<int> size, floa
                           largest < most_size ? "; or give a larger --size" : ""));
 }
 
-Layout without_density(std::span<const Chart> charts, std::optional<int> size) {
+Layout without_density(std::span<const Chart> charts, std::optional<int> size, int least) {
   std::optional<Layout> found;
   if (size) {
-    found = densest(charts, *size);
+    found = densest(charts, *size, least);
     if (!found) refuse_size(charts, *size);
     return *found;
   }
   for (const int s : default_sizes) {
-    found = densest(charts, s);
+    found = densest(charts, s, least);
     if (found && found->density >= enough_density) return *found;
   }
   if (!found) refuse_size(charts, default_sizes.back());
@@ -105,8 +107,9 @@ Layout without_density(std::span<const Chart> charts, std::optional<int> size) {
 
 bool is_dense_enough(std::span<const Chart> charts, const LayoutParams& params) {
   if (params.density)
-    return try_density(charts, params.size.value_or(most_size), *params.density).has_value();
-  const std::optional<Layout> found = densest(charts, params.size.value_or(default_sizes.front()));
+    return try_density(charts, params.size.value_or(most_size), *params.density, 1).has_value();
+  const std::optional<Layout> found =
+      densest(charts, params.size.value_or(default_sizes.front()), params.least);
   return found && found->density >= enough_density;
 }
 
@@ -118,6 +121,7 @@ Layout lay_out(std::span<const Chart> charts, const LayoutParams& params) {
     require(chart.size.x >= 0 && chart.size.x <= largest_chart && chart.size.y >= 0 &&
                 chart.size.y <= largest_chart,
             "lightmap", "the size of a chart must be metres of 0 to 1e9");
+  require(params.least >= 1, "lightmap", "a chart has at least 1 texel");
   for (const Chart& chart : charts)
     require(chart.halvings >= 0 && chart.halvings < 32, "lightmap",
             "a chart's texels must be 1 to 2^31 times as wide");
@@ -126,8 +130,8 @@ Layout lay_out(std::span<const Chart> charts, const LayoutParams& params) {
                 fmt::format("give 16 to {}", most_size));
   if (params.density && !(*params.density > 0 && std::isfinite(*params.density)))
     throw Error("lightmap", fmt::format("{:g} texels per metre", *params.density), "give more than 0");
-  Layout out = params.density ? with_density(charts, params.size, *params.density)
-                              : without_density(charts, params.size);
+  Layout out = params.density ? with_density(charts, params.size, *params.density, params.least)
+                              : without_density(charts, params.size, params.least);
   const std::uint64_t bytes =
       static_cast<std::uint64_t>(out.width) * static_cast<std::uint64_t>(out.height) * bytes_per_texel;
   if (bytes > memory_of_machine())

@@ -64,8 +64,8 @@ std::uint8_t reached_places(const Texels& texels, const Texel& texel, const vec3
 
 rays::SurfacePoint place_within(const Texels& texels, const Texel& texel, int k) {
   require(k >= 0 && k < places_within, "lightmap", "a texel has no such place");
-  constexpr std::array<vec2, places_within> at = {vec2(-0.375f, -0.125f), vec2(0.125f, -0.375f),
-                                                  vec2(0.375f, 0.125f), vec2(-0.125f, 0.375f)};
+  constexpr std::array<vec2, places_within> at = {vec2(-0.1875f, -0.0625f), vec2(0.0625f, -0.1875f),
+                                                  vec2(0.1875f, 0.0625f), vec2(-0.0625f, 0.1875f)};
   return place_of(texels, texel, at[static_cast<std::size_t>(k)]);
 }
 

@@ -92,11 +92,11 @@ TEST(Atlas, AThinWallLetsNoLightUnderItsFoot) {
   }
 }
 
-TEST(Atlas, EdgesOfShadowsAreSpreadOverATexel) {
-  // Light on one side of a slanted line. Half a texel from it and more it is as it was; along it there are
-  // four steps to a texel, and not one.
-  const Unwrapped u(scene_of({scene::make_quad({0, 0, 0}, {4, 0, 0}, {0, 0, -4})}), {.density = 4.0f});
-  const auto beyond = [](const vec3& at) { return 4 * (at.x + 0.3f * at.z - 1.2f); };  // texels
+TEST(Atlas, EdgesOfShadowsAreSpreadOverHalfATexel) {
+  // Light on one side of a slanted line. A third of a texel from it and more it is as it was; along it there
+  // are four steps to a texel, and not one.
+  const Unwrapped u(scene_of({scene::make_quad({0, 0, 0}, {4, 0, 0}, {0, 0, -4})}), {.density = 16.0f});
+  const auto beyond = [](const vec3& at) { return 16 * (at.x + 0.61f * at.z - 0.3f); };  // texels
   const Places places = find_places(u.texels, rays::PosedWorld(open_space, 0));
   const image::Image atlas = light_texels(
       u.texels, places, [](const rays::SurfacePoint&) { return vec3(1); },
@@ -106,7 +106,7 @@ TEST(Atlas, EdgesOfShadowsAreSpreadOverATexel) {
     if (u.texels.texels[i].way != vec2(0)) continue;
     const float value = value_of(atlas, u.texels.texels[i].index).x, away = beyond(places.points[i].position);
     ++steps[value];
-    if (std::abs(away) > 0.6f) {
+    if (std::abs(away) > 0.3f) {
       EXPECT_EQ(value, away > 0 ? 5 : 1) << away;
     }
   }

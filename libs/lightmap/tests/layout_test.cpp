@@ -68,6 +68,17 @@ std::vector<Chart> rooms(int count) {
   return make_charts(scene_of(meshes), 0).charts;
 }
 
+TEST(Layout, SmallChartsGetFourTexelsAlongTheirLongerSideWhereTheyFit) {
+  const std::vector<Chart> charts(40, {0, {}, vec2(0.04f, 0.02f)});
+  for (const PlacedChart& place : lay_out(charts, {.size = 256, .density = 8.0f}).places)
+    EXPECT_EQ(place.count, glm::ivec2(5, 3));
+  for (const PlacedChart& place : lay_out(charts, {.size = 256, .density = 8.0f, .least = 1}).places)
+    EXPECT_EQ(place.count, glm::ivec2(2, 2));
+  // 40 of 9 × 7 texels, gutters included, are more than 48², 40 of 6 × 6 are not.
+  for (const PlacedChart& place : lay_out(charts, {.size = 48, .density = 8.0f}).places)
+    EXPECT_EQ(place.count, glm::ivec2(2, 2));
+}
+
 TEST(Layout, ChartsAndTheirGuttersLieApart) {
   const std::vector<Chart> charts = rooms(12);
   for (const int size : {256, 512, 1024}) {
@@ -90,7 +101,7 @@ TEST(Layout, ChartsAndTheirGuttersLieApart) {
 
 TEST(Layout, TheDensityAskedForIsThatOfEveryChart) {
   const std::vector<Chart> charts = rooms(2);
-  const Layout layout = lay_out(charts, {.density = 20.0f});
+  const Layout layout = lay_out(charts, {.density = 20.0f, .least = 1});
   EXPECT_EQ(layout.density, 20);
   for (std::size_t i = 0; i < charts.size(); ++i) {
     const vec2 texels = charts[i].size * 20.0f, steps = layout.places[i].count - 1;

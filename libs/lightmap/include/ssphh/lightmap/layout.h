@@ -36,6 +36,7 @@ struct LayoutParams {
   /// or of the powers of two that holds the density asked for.
   std::optional<int> size = {};
   std::optional<float> density = {};  ///< texels per metre; none: as many as fit
+  int least = 4;                      ///< texels at least along a chart's longer side, however small it is
 };
 
 /// Whether the smallest atlas that may be taken unasked, or the one asked for, holds the charts at the

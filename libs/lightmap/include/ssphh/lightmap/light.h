@@ -33,7 +33,7 @@ rays::SurfacePoint place_within(const Texels& texels, const Texel& texel, int k)
 /// the light changes toward it; hidden texels take the mean of those on the chart beside them, or, where
 /// these are hidden, too, the light of the nearest place in the world that is lit; gutters that of the
 /// chart's rim. `irradiance` is asked of elements of `places.points`. `sharp`, if given, is added as its mean
-/// over the places within the texel that are reached: edges of shadows are a texel wide and no stairs. The
+/// over the places within the texel that are reached: edges of shadows are no stairs. The
 /// same bits for any number of threads. Throws Error for places of other texels and for texels that
 /// make_texels() did not find, Cancelled when asked to stop.
 image::Image light_texels(const Texels& texels, const Places& places, const IrradianceAt& irradiance,
