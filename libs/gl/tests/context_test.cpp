@@ -137,6 +137,11 @@ TEST_F(GlContext, WarningsOfWeightAreLoggedAndNoErrors) {
 
 TEST_F(GlContext, OfOurOwnIsCurrentFromItsStartToItsEnd) {
   const EGLContext shared = eglGetCurrentContext();
+  const auto lives = [display = eglGetCurrentDisplay()](EGLContext context) {
+    EGLint version = 0;
+    return eglQueryContext(display, context, EGL_CONTEXT_CLIENT_VERSION, &version) == EGL_TRUE;
+  };
+  EGLContext gone = EGL_NO_CONTEXT;
   {
     Context own = Context::headless();
     const EGLContext fresh = eglGetCurrentContext();
@@ -145,7 +150,10 @@ TEST_F(GlContext, OfOurOwnIsCurrentFromItsStartToItsEnd) {
     EXPECT_EQ(eglGetCurrentContext(), shared);
     own.make_current();
     EXPECT_EQ(eglGetCurrentContext(), fresh);
+    EXPECT_TRUE(lives(fresh));
+    gone = fresh;
   }
+  EXPECT_FALSE(lives(gone)) << "it is given back";
   EXPECT_EQ(eglGetCurrentContext(), EGL_NO_CONTEXT);
   {
     const Context own = Context::headless();

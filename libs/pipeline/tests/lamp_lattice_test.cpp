@@ -14,6 +14,8 @@
 #include <ssphh/trace/transport_scene.h>
 
 #include "error_message.h"
+#include "number_list.h"
+#include "scene_text.h"
 
 namespace ssphh::pipeline {
 namespace {
@@ -124,6 +126,45 @@ TEST_F(LampLatticeTest, SharesFollowALinearFieldWhereAllCornersAreSeen) {
     EXPECT_NEAR(blended, field(at), 1e-4f);
   }
   EXPECT_GT(asked, 1000u);
+}
+
+TEST_F(LampLatticeTest, IsAsTheListHasIt) {
+  test::NumberList list;
+  const auto add = [&](const char* name, const std::vector<float>& times, const LampLatticeParams& params) {
+    const LampLattice l = lattice(times, params);
+    std::array<int, 9> seen{};  // boxes that see a corner, and any
+    for (const std::uint8_t bits : l.seen) {
+      for (int c = 0; c < 8; ++c) seen[static_cast<std::size_t>(c)] += bits >> c & 1;
+      seen[8] += bits != 0;
+    }
+    list.add(name, l.origin, l.box, l.boxes, std::string_view("seen"), seen);
+    for (const std::vector<int>& planes : l.planes) list.add("  planes", planes);
+    list.add("  places", l.places);
+    list.add("  place of", l.place_of);
+    for (int i = 0; i < 24; ++i) {
+      const vec3 at =
+          home +
+          params.reach *
+              (2.0f * vec3(test::weight(3 * i), test::weight(3 * i + 1), test::weight(3 * i + 2)) - 1.0f);
+      const auto shares = lamp_shares(l, at);
+      std::vector<float> text;
+      for (const LampShare& share : shares)
+        if (share.place >= 0) text.push_back(static_cast<float>(share.place)), text.push_back(share.weight);
+      if (!text.empty()) list.add("  shares", at, std::string_view(":"), text);
+    }
+  };
+  add("usual", {0, 1}, {.reach = 1.2f});
+  add("wide", {0, 1}, {.spacing = 3, .reach = 1.1f});
+  add("a ball", {0}, {.spacing = 0.9f, .reach = 1.3f, .radius = 0.25f});
+  list.expect("libs/pipeline/tests/expected/lamp-lattice.txt");
+}
+
+TEST_F(LampLatticeTest, HasNoMorePlacesThanTheMost) {
+  // 2 ⌈reach / spacing⌉ + 1 along each axis: 15³ = 3375 are few enough, 17³ = 4913 are not.
+  EXPECT_EQ(test::message_of([&] { lattice({0}, {.spacing = 5, .reach = 35}); }), "no error");
+  EXPECT_EQ(test::message_of([&] { lattice({0}, {.spacing = 5, .reach = 35.1f}); }),
+            "lattice of a lamp: places 5 m apart as far as 35.1 m are 4913, and 4096 is the most (set them "
+            "farther apart, or reach less far)");
 }
 
 TEST_F(LampLatticeTest, SaysWhatCannotBe) {

@@ -12,8 +12,9 @@
 namespace ssphh::test {
 namespace {
 
-std::vector<std::byte> small_file(OnSurfaces kind = OnSurfaces::records) {
-  return cook_two_rooms(set_of_two_rooms(kind, 2), 8);
+const std::vector<std::byte>& small_file() {
+  static const std::vector<std::byte> file = cook_two_rooms(set_of_two_rooms(OnSurfaces::records, 2), 8);
+  return file;
 }
 
 void sign(std::vector<std::byte>& file) {
