@@ -1,8 +1,5 @@
 // What every target writes of one set, grids as they come out, and light in free space: number by number.
 
-#include <cctype>
-#include <cstdlib>
-
 #include <gmock/gmock.h>
 
 #include <ssphh/scene/builtin.h>
@@ -11,7 +8,7 @@
 #include "expected_text.h"
 #include "field_sets.h"
 #include "random_set.h"
-#include "scene_text.h"
+#include "text_digest.h"
 #include "triangle_source.h"
 
 namespace ssphh::probe_export {
@@ -19,25 +16,9 @@ namespace {
 
 /// A line's text, with the weighted sum of its numbers in their place where they are many.
 std::string digest_of_line(std::string_view line) {
-  std::string words;
-  std::vector<double> numbers;
-  for (std::size_t i = 0; i < line.size();) {
-    const bool begins =
-        std::isdigit(static_cast<unsigned char>(line[i])) ||
-        (line[i] == '-' && i + 1 < line.size() && std::isdigit(static_cast<unsigned char>(line[i + 1])));
-    if (!begins) {
-      words += line[i++];
-      continue;
-    }
-    const std::string rest(line.substr(i, 40));
-    char* end = nullptr;
-    numbers.push_back(std::strtod(rest.c_str(), &end));
-    i += static_cast<std::size_t>(end - rest.c_str());
-  }
-  if (numbers.size() < 30) return std::string(line) + "\n";
-  double sum = 0;
-  for (std::size_t i = 0; i < numbers.size(); ++i) sum += test::weight(i) * numbers[i];
-  return fmt::format("{}: {} numbers {:.6g}\n", words.substr(0, 60), numbers.size(), sum);
+  const test::TextDigest digest = test::digest_of(line);
+  if (digest.count < 30) return std::string(line) + "\n";
+  return fmt::format("{}: {}\n", digest.words.substr(0, 60), test::numbers_text(digest));
 }
 
 std::string digest(const ExportFile& file) {
