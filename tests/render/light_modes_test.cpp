@@ -54,10 +54,12 @@ scene::Scene open_ground() {
 
 /// Probes of the ground with modes of its groups, lamp and sky.
 struct ModeBake {
-  explicit ModeBake(const std::vector<LightMode>& modes, int points = 4096, int rays = 512) : source(scene) {
+  explicit ModeBake(const std::vector<LightMode>& modes, int points = 4096, int rays = 512,
+                    float surfel_size = 0.12f)
+      : source(scene) {
     bake::TransportBakeParams params;
     params.transport.directions = 1024;
-    params.transport.surfel_size = 0.12f;
+    params.transport.surfel_size = surfel_size;
     params.records = {.points = points, .rays = rays, .baked = bake::baked_indices(modes)};
     bake::TransportBakeReport report;
     set = bake::bake_transport(source, place::init_from_scene(scene, 4), params, report);
@@ -73,9 +75,13 @@ const ModeBake& sky_baked() {
   return bake;
 }
 
-/// The same with few records, for what does not look at their light.
+/// Few records and large surfels, for what does not look at their light.
+ModeBake few(const std::vector<LightMode>& modes, int points = 256, int rays = 64) {
+  return ModeBake(modes, points, rays, 0.3f);
+}
+/// The same so.
 const ModeBake& sky_baked_into_few() {
-  static const ModeBake bake({LightMode::realtime, LightMode::baked}, 256, 64);
+  static const ModeBake bake = few({LightMode::realtime, LightMode::baked});
   return bake;
 }
 
@@ -109,6 +115,12 @@ const trace::RenderState& truth_of_ground() {
   return state;
 }
 
+/// As the probes of sky_baked() light it.
+const trace::RenderState& looked_up_of_ground() {
+  static const trace::RenderState state = looked_up(sky_baked().scene, sky_baked().set, 16);
+  return state;
+}
+
 /// Mean of each channel, and the mean absolute difference of 8×8 blocks relative to it.
 struct Difference {
   vec3 ratio{0}, of_blocks{0};
@@ -136,7 +148,7 @@ float mean(const image::Image& image) {
 
 TEST(LightModesInPictures, ABakedSkyEqualsPathTracing) {
   const trace::RenderState& truth = truth_of_ground();
-  const Difference all = compared(looked_up(sky_baked().scene, sky_baked().set, 16).color, truth.color, 1);
+  const Difference all = compared(looked_up_of_ground().color, truth.color, 1);
   for (glm::length_t c = 0; c < 3; ++c) {
     // Records are as dense as to miss 4 % of a place's light at most; blocks of 64 pixels of 1024 paths have
     // a noise under 1 %, and half of that tolerance is left for what all places have in common.
@@ -154,7 +166,8 @@ TEST(LightModesInPictures, EveryGroupIsCountedOnce) {
     probes::ProbeSet set = sky == LightMode::baked
                                ? sky_baked().set
                                : ModeBake({LightMode::realtime, LightMode::realtime}, 4096, 128).set;
-    const trace::RenderState with = looked_up(sky_baked().scene, set, 16);
+    const trace::RenderState with =
+        sky == LightMode::baked ? looked_up_of_ground() : looked_up(sky_baked().scene, set, 16);
     probes::relight(set, "sky", vec3(0));
     const trace::RenderState without = looked_up(sky_baked().scene, set, 16);
     image::Image of_sky = with.indirect;
@@ -211,7 +224,7 @@ TEST(LightModesInPictures, WhatMovesGetsBakedLightFromProbes) {
 }
 
 TEST(LightModesInPictures, LampsThatArePointsAreInProbesToo) {
-  const ModeBake lamp({LightMode::baked, LightMode::realtime}, 256, 64);
+  const ModeBake lamp = few({LightMode::baked, LightMode::realtime});
   for (const probes::Probe& probe : lamp.set.probes) {
     const vec3 way = vec3(-1.5f, 1.2f, 1.5f) - probe.position;
     const bool seen = trace::PathTracer(lamp.scene).visible(probe.position, vec3(-1.5f, 1.2f, 1.5f));
@@ -225,7 +238,7 @@ TEST(LightModesInPictures, LampsThatArePointsAreInProbesToo) {
 TEST(LightModesInPictures, GlossySurfacesMirrorADiffuseSkyItself) {
   // The box is of metal and all that is seen: what it shows of the sky is as if nothing were kept. Degree 4
   // of a baked one knows no edge between its colours.
-  const ModeBake diffuse({LightMode::realtime, LightMode::diffuse}, 256, 64);
+  const ModeBake diffuse = few({LightMode::realtime, LightMode::diffuse});
   scene::Scene scene = diffuse.scene;
   scene.materials[1].metallic = 1;
   scene.materials[1].specular_roughness = 0.15f;
@@ -302,7 +315,7 @@ TEST(LightModesInPictures, OfASessionHoldAsLongAsSurroundingsAndPoseDo) {
 TEST(LightModesInPictures, BakesAreTheSameBitsForAnyNumberOfThreads) {
   const auto bytes = [](int threads) {
     set_thread_count(threads);
-    const ModeBake bake({LightMode::baked, LightMode::baked}, 1024, 256);
+    const ModeBake bake = few({LightMode::baked, LightMode::baked}, 1024, 256);
     return probes::probes_to_binary(bake.set);
   };
   const auto one = bytes(1), two = bytes(2);
@@ -344,7 +357,7 @@ TEST(LightModesInPictures, ThatTheSceneAsksForAreThoseOfTheFileThen) {
   const trace::RenderState with = looked_up(scene, set, 16);
   const Difference all = compared(with.color, truth_of_ground().color, 1);
   for (glm::length_t c = 0; c < 3; ++c) EXPECT_NEAR(all.ratio[c], 1, 0.02) << c;
-  EXPECT_GT(mean(with.groups[1]), mean(looked_up(scene, sky_baked().set, 16).groups[1]) + 0.01f)
+  EXPECT_GT(mean(with.groups[1]), mean(looked_up_of_ground().groups[1]) + 0.01f)
       << "the sky is sampled again";
 }
 

@@ -122,9 +122,9 @@ TEST(Cook, TellsWhatIsLost) {
   const scene::Scene scene = two_rooms_with_a_wall();
   const TriangleSource source(scene);
   const cook::CookScene cook_scene{scene, source};
-  const cook::Cooked with = cook::cook(set, &cook_scene, {8});
+  const cook::Cooked with = cook::cook(set, &cook_scene);
   EXPECT_EQ(with.points, 300u);
-  EXPECT_EQ(with.sight_bytes, 27u * 6 * 64 * 2);
+  EXPECT_EQ(with.sight_bytes, 27u * 6 * 32 * 32 * 2) << "as many texels as usual";
   EXPECT_THAT(with.lost, Contains(HasSubstr("fitted weights")));
   EXPECT_THAT(with.lost, Not(Contains(HasSubstr("--scene"))));
 }
