@@ -22,6 +22,7 @@ TEST(Cook, RefusesWhatItCannotCook) {
   const auto problem = [&](const probes::ProbeSet& s, const cook::CookParams& params, bool posed = true) {
     return message_of([&] { cook::cook(s, posed ? &cook_scene : nullptr, params); });
   };
+  for (const int texels : {0, 8, 256}) EXPECT_EQ(problem(set, {texels}, false), "no error") << texels;
   for (const int texels : {-1, 7, 257})
     EXPECT_THAT(problem(set, {texels}), HasSubstr("0 or 8 to 256")) << texels;
   EXPECT_THAT(problem({}, {}), HasSubstr("empty"));

@@ -152,7 +152,7 @@ TEST_F(ExrChannels, OfOtherPrimariesAreKeptWithAWarning) {
 
 TEST_F(ExrChannels, PixelsThatAreNoNumbersAreCounted) {
   Image image(3, 1);
-  image.pixels = {1, 2, INFINITY, 4, NAN, -INFINITY, 7, 8, 9};
+  image.pixels = {INFINITY, 2, 3, 4, NAN, -INFINITY, 7, 8, 9};
   warnings_.clear();
   decode_image(encode_exr(image), "f");
   EXPECT_EQ(warnings_, (std::vector<std::string>{"f: 2 of 3 pixels are infinite or NaN"}));

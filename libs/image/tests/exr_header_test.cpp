@@ -93,6 +93,15 @@ TEST(ExrHeaders, TellWhatTheFileAnnounces) {
   EXPECT_EQ(header.chunks, 10);
 }
 
+TEST(ExrHeaders, ThatAreCutOffEndThereWhateverLiesBehindThem) {
+  const std::string file = "\x76\x2f\x31\x01" + u32(2) + part(), f = "f";
+  for (std::size_t size = 8; size < file.size(); ++size) {
+    const auto cut = std::as_bytes(std::span(file)).first(size);
+    const std::string said = message_of([&] { check_exr_headers({cut, f, DecodeLimits{}}); });
+    EXPECT_EQ(said.substr(0, said.rfind(" (byte")), broken + "ends too early") << size << ' ' << said;
+  }
+}
+
 TEST(ExrHeaders, BlocksHaveTheLinesOfTheirCompression) {
   constexpr std::array<int, 10> lines{1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
   for (int c = 0; c < 10; ++c) {

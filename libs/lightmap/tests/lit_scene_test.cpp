@@ -80,6 +80,12 @@ TEST(LitScene, WhatDoesNotBelongTogetherIsRefused) {
   EXPECT_EQ(
       message_of([&] { light_texels(u.texels, {}, [](const rays::SurfacePoint&) { return vec3(1); }); }),
       "lightmap: the places are of other texels");
+  Texels outside = u.texels;
+  outside.places[0].first.x = gutter - 1;
+  const Places places = find_places(u.texels, rays::PosedWorld(open_space, 0));
+  EXPECT_EQ(
+      message_of([&] { light_texels(outside, places, [](const rays::SurfacePoint&) { return vec3(1); }); }),
+      "lightmap texels: a chart lies outside of the atlas");
 }
 
 TEST(Rgbm, ValuesComeBackWithin) {

@@ -168,14 +168,23 @@ TEST_F(LampLatticeTest, HasNoMorePlacesThanTheMost) {
 }
 
 TEST_F(LampLatticeTest, SaysWhatCannotBe) {
-  EXPECT_THAT(test::message_of([&] { lattice({0}, {.spacing = 1e-3f}); }),
+  const auto said = [&](const std::vector<float>& times, const LampLatticeParams& params,
+                        const vec3& place = home) {
+    return test::message_of([&] { lamp_lattice(source_, times, place, params); });
+  };
+  EXPECT_THAT(said({0}, {.spacing = 1e-3f}),
               AllOf(HasSubstr("4096 is the most"), HasSubstr("farther apart")));
-  EXPECT_THAT(test::message_of([&] { lattice({0}, {.spacing = 100, .reach = 500}); }),
-              HasSubstr("cannot be moved"));
-  EXPECT_THAT(test::message_of([&] { lattice({0}, {.spacing = 0}); }), HasSubstr("spacing"));
-  EXPECT_THAT(test::message_of([&] { lattice({0}, {.reach = -1}); }), HasSubstr("reach"));
-  EXPECT_THAT(test::message_of([&] { lattice({0}, {.radius = -1}); }), HasSubstr("radius"));
-  EXPECT_THAT(test::message_of([&] { lattice({}); }), HasSubstr("a time"));
+  const std::string of = "lattice of a lamp: ";
+  EXPECT_EQ(said({0}, {.spacing = 100, .reach = 500}),
+            of + "there is no free space around it: it cannot be moved");
+  for (const float bad : {0.0f, -1.0f, NAN, INFINITY}) {
+    EXPECT_EQ(said({0}, {.spacing = bad}), of + "its spacing must be over 0 m");
+    EXPECT_EQ(said({0}, {.reach = bad}), of + "its reach must be over 0 m");
+    if (bad == 0) continue;
+    EXPECT_EQ(said({0}, {.radius = bad}), of + "its radius must not be negative");
+  }
+  EXPECT_EQ(said({}, {}), of + "it needs a place and a time");
+  EXPECT_EQ(said({0}, {}, vec3(0, NAN, 0)), of + "it needs a place and a time");
 }
 
 }  // namespace

@@ -176,6 +176,18 @@ TEST_F(SceneOptionsTest, EachReachesTheScene) {
   test::expect_text_of("libs/pipeline/tests/expected/scene-options.txt", told());
 }
 
+TEST_F(SceneOptionsTest, AskForNothingUnlessTold) {
+  const SceneOptions o;
+  EXPECT_EQ(o.time, 0);
+  EXPECT_EQ(o.environment_intensity, 1);
+  EXPECT_EQ(o.environment_rotation, 0);
+  EXPECT_FALSE(o.lambert || o.sky.preetham || o.sky.model || o.sky.utc_offset);
+  EXPECT_EQ(o.sky.elevation, 45);
+  EXPECT_EQ(o.sky.azimuth, 120);
+  EXPECT_EQ(o.sky.turbidity, 3);
+  EXPECT_EQ(o.sky.north, 0);
+}
+
 TEST_F(SceneOptionsTest, ModesAreReadFromTheLastSign) {
   const scene::GroupMode mode = read_light_mode("a=b=mixed");
   EXPECT_EQ(mode.group, "a=b");
