@@ -38,16 +38,16 @@ class SurfaceLightTest : public testing::Test {
     return bake_scene(geometry_, scene_, 0, {.probes = "scene"}, settings, {}).set;
   }
   struct Parts {
-    vec3 all, looked_up;
+    vec3 held_light, direct, looked_up;
     std::vector<std::string> held;
   };
   Parts at(const probes::ProbeSet& set, const rays::SurfacePoint& point, int samples = 4) const {
     const trace::TransportScene source(geometry_, scene_);
     const trace::PathTracer tracer(geometry_, scene_, 0);
     const probes::LookupParams params;
-    const SurfaceLight light(source, tracer, set, params, 0, samples);
+    const SurfaceLight light(source, tracer, set, params, 0);
     const probes::IrradianceLookup lookup(set, tracer, params);
-    return {light.irradiance(point), lookup.irradiance(point), light.held_groups()};
+    return {light.held(point), light.direct(point, samples), lookup.irradiance(point), light.held_groups()};
   }
   /// By hand, of the lamp at (x, 0, 0) and the point on the floor.
   static vec3 sent(float x, float intensity, const vec3& point) {
@@ -66,28 +66,29 @@ TEST_F(SurfaceLightTest, IsTheLookupAndEachLampTimesItsScale) {
   Parts parts = at(set, point_);
   EXPECT_TRUE(parts.held.empty());
   EXPECT_GT(parts.looked_up.x, 0.1f);
-  test::expect_near(parts.all, parts.looked_up + left + right, 1e-4f);
-  EXPECT_EQ(at(set, point_, 0).all, parts.looked_up) << "no samples: the lookup alone";
+  EXPECT_EQ(parts.held_light, parts.looked_up);
+  test::expect_near(parts.direct, left + right, 1e-4f);
 
   probes::relight(set, "left", vec3(0.5f, 2, 0));
   probes::relight(set, "right", vec3(0));
   parts = at(set, point_);
-  test::expect_near(parts.all, parts.looked_up + vec3(0.5f, 2, 0) * left, 1e-4f);
+  test::expect_near(parts.direct, vec3(0.5f, 2, 0) * left, 1e-4f);
 }
 
 TEST_F(SurfaceLightTest, LeavesOutWhatTheLookupHolds) {
   const probes::ProbeSet set = baked({{"left", scene::LightMode::baked}});
   const Parts parts = at(set, point_);
   EXPECT_THAT(parts.held, testing::ElementsAre("left"));
-  test::expect_near(parts.all, parts.looked_up + sent(0.5f, 6, point_.position), 1e-4f);
+  EXPECT_EQ(parts.held_light, parts.looked_up);
+  test::expect_near(parts.direct, sent(0.5f, 6, point_.position), 1e-4f);
 }
 
 TEST_F(SurfaceLightTest, SaysWhatCannotBe) {
   const probes::ProbeSet set = baked();
-  EXPECT_EQ(test::message_of([&] { at(set, point_, -1); }), "light of surfaces: fewer than 0 samples");
+  EXPECT_EQ(test::message_of([&] { at(set, point_, 0); }), "light of surfaces: fewer than 1 sample");
   const trace::TransportScene source(geometry_, scene_);
   const trace::PathTracer tracer(geometry_, scene_, 0);
-  EXPECT_EQ(test::message_of([&] { SurfaceLight(source, tracer, set, {}, NAN, 1); }),
+  EXPECT_EQ(test::message_of([&] { SurfaceLight(source, tracer, set, {}, NAN); }),
             "time: it must be a finite number of seconds");
 }
 
