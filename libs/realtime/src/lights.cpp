@@ -90,7 +90,10 @@ void Lights::add_lights(const scene::Scene& scene, float time, const std::vector
 
 void Lights::add_environment(const scene::Scene& scene, const std::vector<std::string>& groups, int samples,
                              const Lights* before) {
-  if (!scene.environment) return;
+  if (!scene.environment) {
+    same_sky_ = before && !before->environment_;
+    return;
+  }
   const scene::Environment& own = *scene.environment;
   same_sky_ = before && before->environment_ && before->environment_->color == own.color &&
               before->environment_->rotation == own.rotation &&

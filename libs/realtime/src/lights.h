@@ -71,6 +71,8 @@ class Lights {
   const MapAtlas& lamp_maps() const { return lamps_; }
   const MapAtlas& area_maps() const { return areas_; }
   float near_plane() const { return near_; }
+  /// Whether the environment, or that there is none, is that of the lights that these were made after.
+  bool same_sky() const { return same_sky_; }
   const scene::Environment* environment() const { return environment_ ? &*environment_ : nullptr; }
   /// In place of the scene's own image; null: that one.
   const std::shared_ptr<const image::Image>& other_environment() const { return other_image_; }

@@ -25,7 +25,7 @@ void Lights::take_from(Lights& before, const std::vector<mat4>& world) {
   take(suns_, before.suns_, suns);
   if (suns) bounds_ = std::move(before.bounds_);
   take(skies_, before.skies_, same_sky_maps(before));
-  if (same_sky_) {
+  if (same_sky_ && before.environment_) {
     environment_ = std::move(before.environment_);
     own_environment_ = std::move(before.own_environment_);
     other_image_ = before.other_image_;

@@ -153,8 +153,10 @@ void Renderer::set_lamps(const scene::Scene& scene) {
   d.context.throw_on_error("making lamps");
   lights.take_from(d.lights, world);
   lights.set(state, world);
+  const bool same_sky = lights.same_sky();
   d.todo.clear(), d.next_piece = 0;
   d.lights = std::move(lights);
+  if (!same_sky) d.show_environment();
   d.posed = pose_only(scene);
   d.world = std::move(world);
   d.scene.set_groups(scene, state.group_scales, d.counters);
