@@ -65,8 +65,8 @@ double App::turn(const InjectedInput& input) {
   const bool busy = job.running() || reference.status().running || marks.status().running;
   // How far it is
   if (job.running() && now - last_frame_ > 0.2) redraw();
-  const bool moving =
-      settings.play || path_plays || applied_.light_stale || screen_.waiting_maps > 0 || screen_.drawing;
+  const bool moving = settings.play || path_plays || frames || applied_.light_stale ||
+                      screen_.waiting_maps > 0 || screen_.drawing;
   if (redraw_ == 0 && !moving) return busy ? 0.1 : 0.5;
   redraw_ = std::max(redraw_ - 1, 0);
 
@@ -88,6 +88,7 @@ double App::turn(const InjectedInput& input) {
   }
   const auto ui = window.seconds();
   finish_frame();
+  continue_frames(*this);
   times.add("panels", panel_ms + 1e3 * (window.seconds() - ui));
   return redraw_ > 0 || moving ? 0 : busy ? 0.05 : 0.5;
 }
@@ -181,7 +182,7 @@ void App::apply_edits() {
   if (applied_.lamps_of != document.scene && !(shapes_alone && ImGui::IsAnyMouseDown())) apply_lamps();
   // Also where lamps changed while the light was on its way; once, so that it can be cancelled.
   const std::pair asked(document.scene, light.live_light());
-  if (light.live() && applied_.relit_for != asked && !has_lamps(light.live_light()->scene(), edits)) {
+  if (light.live() && applied_.relit_for != asked && !document.lamps_are_of(light.live_light()->scene())) {
     applied_.relit_for = asked;
     applied_.light_is_stale(window.seconds());
   }
@@ -234,8 +235,8 @@ bool App::settled() const {
 
 bool App::current() const {
   if (!scene_open()) return job.idle();
-  if (!job.idle() || !elsewhere.idle() || screen_.to_send || applied_.light_stale || screen_.scene_dirty ||
-      screen_.waiting_maps > 0 || !screen_.drawn || screen_.awaits_picture())
+  if (!job.idle() || !elsewhere.idle() || screen_.to_send || screen_.linear_file || applied_.light_stale ||
+      screen_.scene_dirty || screen_.waiting_maps > 0 || !screen_.drawn || screen_.awaits_picture())
     return false;
   if (!(screen_.drawn->view == view) || !same_picture(screen_.drawn->settings, settings) || screen_.coarse)
     return false;

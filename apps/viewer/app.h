@@ -9,6 +9,8 @@
 #include <ssphh/bake/bake.h>
 #include <ssphh/gl/context.h>
 
+#include "file_kinds.h"
+#include "frame_export.h"
 #include "model/autosave.h"
 #include "model/camera_path.h"
 #include "model/document.h"
@@ -26,6 +28,7 @@
 #include "model/reading.h"
 #include "model/reference.h"
 #include "model/view_history.h"
+#include "model/walk.h"
 #include "outline_gl.h"
 #include "picture.h"
 #include "probe_light.h"
@@ -34,9 +37,6 @@
 #include "window.h"
 
 namespace ssphh::viewer {
-
-/// Whether the name ends as a probe file's does.
-bool is_probe_file(const std::string& name);
 
 class App {
  public:
@@ -120,7 +120,7 @@ class App {
   void save_path(const std::string& file);
   void load_path(const std::string& file);
   void save_stats(const std::string& file);
-  /// Of the picture alone, now, or of the window with its panels at the end of the next turn. PNG.
+  /// PNG: the picture now, or the window after the next turn. EXR: linear light, once edges are smooth.
   void screenshot(const std::string& file, bool panels);
   /// The picture as linear radiance, and the truth where one is traced, in the program that shows pictures of
   /// this session elsewhere. Throws Error where there is none.
@@ -141,6 +141,10 @@ class App {
   /// What is looked at from another side; direction as seen_along().
   void view_along(const vec3& direction);
   void toggle_orthographic();
+  /// Walks from the ground below the view on, or flies again; a turn's way to the right and forward, 1 at the
+  /// walker's speed. Without a way it falls and climbs, too.
+  void toggle_walk();
+  void walk(const vec2& way, float seconds);
   /// Frames what is selected, or everything, without going through a wall.
   void frame_selection();
   /// Selects, and tells what.
@@ -179,8 +183,9 @@ class App {
   bool quality_by_hand() const;
   /// To tell what a quality costs.
   LightKnown light_known() const;
-  /// Of one name, or of keys that play with the scene's animations, as probes::read_probe_keys() has them.
-  void take_probe_file(const std::string& file);
+  /// As probes::read_probe_keys() has them. By hand those of another scene are asked about, else refused, but
+  /// where they are to be taken `anyway`.
+  void take_probe_file(const std::string& file, bool anyway = false);
   /// Makes the surface records or fitted weights of the probes ready, in the background.
   void prepare_surfaces();
   void delete_selection();
@@ -191,6 +196,9 @@ class App {
   void add_lamp(LightEdit lamp);
   /// Another lamp like the selected one beside it, which is selected then.
   void duplicate_lamp();
+  /// A picture of the sky around the scene, or with no name what it had. Throws Error where there is no
+  /// scene.
+  void take_surroundings(const std::string& file);
   /// Gives a lamp a photometric profile, or takes it with an empty one; the selected one that of a file. Both
   /// throw Error for lamps that can have none.
   void set_lamp_profile(std::size_t lamp, const scene::LampProfile& profile);
@@ -202,8 +210,9 @@ class App {
   /// The same at what the ray meets; a sun shines from where the ray goes into the sky, or straight on the
   /// surface. False: there is nothing to aim at.
   bool aim_on_ray(const rays::RayQuery& ray);
-  /// Turns the selected lamp in one undo step with what follows; any length but 0.
+  /// Turns the selected lamp in one undo step with what follows; any length but 0. Or gives it another pose.
   void turn_selected(const vec3& direction);
+  void pose_selected(const mat4& world);
   /// Where the handle begins by which the selected lamp is aimed: the lamp, or of a sun the view's focus.
   std::optional<vec3> aim_origin() const;
   void say(const std::string& message);
@@ -254,6 +263,7 @@ class App {
   std::optional<StopHistogram> histogram, truth_histogram;  ///< of the pictures that are shown
   std::optional<Waveform> waveform;                         ///< of the picture that is shown
   CameraPath bookmarks;
+  std::optional<FrameExport> frames;  ///< of them, being drawn
   float path_time = 0;
   bool path_plays = false;
   bool panels = true, help = false, place_mode = false;
@@ -275,6 +285,8 @@ class App {
   bake::BakeParams bake_params;
   ViewerReport report;
   float fly_speed = 2;  ///< m/s
+  bool walking = false;
+  Walker walker;
 
  private:
   struct Loaded;
@@ -293,8 +305,9 @@ class App {
   /// The selected SPHL or lamp is the same one as in `before`, if it is still there.
   void keep_selection(const Edits& before);
   void delete_lamp();
-  /// Throws Error where a set is not of the scene; with options.force warns.
-  void fit_to_scene(probes::ProbeSet& set, const std::string& file) const;
+  /// Why a set is not of the scene; empty: it is. The other throws Error then, or warns.
+  std::string misfit(const probes::ProbeSet& set) const;
+  void fit_to_scene(probes::ProbeSet& set, const std::string& file, bool anyway) const;
   /// By the quality that is set, which live light has from then on.
   LiveLightParams light_params();
   void take_quality();
@@ -331,6 +344,8 @@ class App {
   /// What methods may stand on: the geometry knows nodes of the scene as opened, edits may bring others;
   /// null: they build their own.
   trace::SharedGeometry geometry_of_methods(const scene::Scene& edited) const;
+  /// Writes the picture's light, if that was asked for and it is there.
+  void write_linear();
   /// Sends the picture elsewhere, if that was asked for and it is there.
   void send_picture();
   void send_truth();

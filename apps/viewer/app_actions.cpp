@@ -5,7 +5,6 @@
 
 #include <ssphh/core/file.h>
 #include <ssphh/core/log.h>
-#include <ssphh/image/io.h>
 #include <ssphh/study/default_view.h>
 
 #include "app.h"
@@ -13,16 +12,6 @@
 #include "model/overlay_file.h"
 
 namespace ssphh::viewer {
-namespace {
-
-constexpr std::string_view probe_endings[] = {".sphl", ".sphl.json"};
-
-}  // namespace
-
-bool is_probe_file(const std::string& name) {
-  return std::ranges::any_of(probe_endings, [&](std::string_view ending) { return name.ends_with(ending); });
-}
-
 void App::say(const std::string& text) {
   message = text;
   message_is_error = false;
@@ -132,33 +121,6 @@ void App::save_stats(const std::string& file) {
                           {"probes", fmt::format("{}", light.empty() ? 0 : light.set().probes.size())}})));
   }
   written("saved", file);
-}
-
-void App::screenshot(const std::string& file, bool with_panels) {
-  if (with_panels) {
-    window_shot_ = file;
-    return redraw();
-  }
-  image::Rgba8 pixels;
-  if (needs_truth(settings) && settings.show != Show::wipe) {
-    pixels = picture.truth_pixels();
-  } else {
-    pixels = shows_instead() ? picture.instead_pixels() : picture.pixels();
-    const image::Rgba8& truth = picture.truth_pixels();
-    const bool same_size = truth.width == pixels.width && truth.height == pixels.height;
-    if (settings.show == Show::wipe && picture.has_truth() && same_size) {
-      const auto from = static_cast<int>(settings.wipe * static_cast<float>(pixels.width));
-      for (int y = 0; y < pixels.height; ++y) {
-        const auto row = 4 * static_cast<std::ptrdiff_t>(y) * pixels.width;
-        std::copy(truth.rgba.begin() + row + 4 * from, truth.rgba.begin() + row + 4 * pixels.width,
-                  pixels.rgba.begin() + row + 4 * from);
-      }
-    }
-  }
-  if (pixels.rgba.empty())
-    throw Error(file, "there is no picture yet", "try again when one stands in the window");
-  write_file(file, image::encode_png(pixels));
-  written("wrote", file);
 }
 
 std::vector<std::string> App::camera_names() const {

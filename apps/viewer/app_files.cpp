@@ -177,12 +177,16 @@ void App::ask_for_file(FileDialog::For what, const std::filesystem::path& in) {
               FileBrowser(folder, {".glb", ".gltf", ".obj", ".ssphh.json", ".sphl", ".sphl.json", ".json"}),
               {},
               {}};
+  } else if (what == sky) {
+    dialog = {what, FileBrowser(folder, {".hdr", ".exr", ".HDR", ".EXR"}), {}, {}};
   } else if (what == profile) {
     dialog = {what, FileBrowser(folder, {".ies", ".IES"}), {}, {}};
   } else if (what == scene) {
     const std::string name =
         document.file.empty() ? free_file(".glb") : fs::path(document.file).filename().string();
     dialog = {what, FileBrowser(folder, {".glb", ".ssphh.json"}, name), {}, {}};
+  } else if (what == FileDialog::For::picture) {
+    dialog = {what, FileBrowser(fs::current_path(), {".png", ".exr"}, free_file(".png")), {}, {}};
   } else {
     dialog = {what, FileBrowser(folder, {".sphl", ".sphl.json"}, free_file(".sphl")), {}, {}};
   }
@@ -199,8 +203,8 @@ void App::choose_file() {
     if (!path) return asked.replaces.clear();
     if (asked.reads() && !std::filesystem::exists(*path))
       throw Error(path->string(), "there is no such file");
-    if (asked.what == profile) {
-      take_profile(path->string());
+    if (asked.what == profile || asked.what == sky) {
+      asked.what == sky ? take_surroundings(path->string()) : take_profile(path->string());
       dialog.reset();
       return;
     }
@@ -209,14 +213,19 @@ void App::choose_file() {
       mended_ = std::exchange(dialog, std::nullopt);
       return;
     }
-    const std::string ending = asked.what == scene ? ".glb" : ".sphl";
-    const bool ends = asked.what == scene
-                          ? path->extension() == ".glb" || path->string().ends_with(overlay_ending)
-                          : is_probe_file(path->string());
+    const std::string ending = asked.what == scene                      ? ".glb"
+                               : asked.what == FileDialog::For::picture ? ".png"
+                                                                        : ".sphl";
+    const bool ends =
+        asked.what == scene ? path->extension() == ".glb" || path->string().ends_with(overlay_ending)
+        : asked.what == FileDialog::For::picture ? path->extension() == ".png" || is_linear_picture(*path)
+                                                 : is_probe_file(path->string());
     if (!ends) *path += ending;
     const bool own = asked.what == scene && *path == document.file;
     if (std::filesystem::exists(*path) && !own && std::exchange(asked.replaces, *path) != *path) return;
-    asked.what == scene ? save_as(path->string()) : save_probes(path->string());
+    if (asked.what == scene) save_as(path->string());
+    if (asked.what == probes) save_probes(path->string());
+    if (asked.what == FileDialog::For::picture) screenshot(path->string(), false);
     dialog.reset();
   } catch (const std::exception& e) {
     asked.replaces.clear();

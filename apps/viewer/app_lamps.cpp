@@ -16,8 +16,9 @@
 namespace ssphh::viewer {
 namespace {
 
-/// How far the handle of a lamp stands from a surface that it is added at, at most [m].
-constexpr float off_surface = 0.5f;
+/// How far the handle of a lamp stands from a surface that it is added at, at most, in the shortest lengths
+/// that somebody looks at, and in shares of how far away that surface is.
+constexpr float off_surface = 5, off_distance = 0.05f;
 
 }  // namespace
 
@@ -31,7 +32,8 @@ void App::add_lamp(scene::LightType type) {
     const rays::RayQuery off{surface->position + 0.01f * least * surface->normal, surface->normal, 1e4f};
     const auto ceiling = pick_surface(*picking_, document.time, off);
     const float room = ceiling ? glm::distance(ceiling->position, off.origin) : depth;
-    place = surface->position + std::min({off_surface, 0.5f * room, 0.5f * depth}) * surface->normal;
+    const float off_it = std::max(off_surface * least, off_distance * depth);
+    place = surface->position + std::min({off_it, 0.5f * room, 0.5f * depth}) * surface->normal;
     distance = std::min(depth, room);
   }
   add_lamp(new_lamp(type, new_lamp_name(document.edits(), std::string(name_of(type))), place,
@@ -87,6 +89,23 @@ void App::take_profile(const std::string& file) {
   set_lamp_profile(static_cast<std::size_t>(selection.index), scene_io::read_ies(file));
 }
 
+void App::take_surroundings(const std::string& file) {
+  if (!scene_open()) throw Error(file, "is a picture of a sky, and no scene is open", "open a scene first");
+  std::optional<Surroundings> around;
+  if (!file.empty()) around = read_surroundings(file);
+  const bool fixed = !light.empty() && !light.live();
+  document.edit_at_once(around ? "the sky" : "the scene's own sky", [&](Edits& e) {
+    if (around) e.sky.reset();
+    e.surroundings = around;
+  });
+  const std::string name = std::filesystem::path(file).filename().string();
+  say(file.empty() ? "the sky is the scene's own again"
+      : fixed      ? fmt::format("{} is the sky of direct light. The probes of {} were lit without it; "
+                                      "“Light them live” in the panel Probes lights them with it.",
+                                 name, light.origin())
+                   : fmt::format("{} is the sky", name));
+}
+
 bool App::can_aim() const {
   if (!selection.is(Kind::light)) return false;
   const Lamp& lamp = document.edits().lights[selection.index].lamp;
@@ -104,6 +123,13 @@ void App::turn_selected(const vec3& direction) {
   const mat4 world = document.lighting().lights[i].world;
   document.edit("aim " + document.scene->lights[i].name,
                 [&](Edits& e) { e.lights[i].world = aimed(e.lights[i].lamp, world, direction); });
+  redraw();
+}
+
+void App::pose_selected(const mat4& world) {
+  if (!can_aim()) return;
+  const auto i = static_cast<std::size_t>(selection.index);
+  document.edit("turn " + document.scene->lights[i].name, [&](Edits& e) { e.lights[i].world = world; });
   redraw();
 }
 

@@ -28,7 +28,7 @@ void App::take_places(const std::string& what, const Places& places) {
 
 void App::light_scene_probes() {
   if (document.places().empty())
-    throw Error("probes", "the scene has no SPHLs", "let them be placed: --probes auto, or the button");
+    throw Error("probes", "the scene has no SPHLs", "press Place in the panel Probes, or give --probes auto");
   rebuild_light();
 }
 
@@ -134,7 +134,7 @@ void App::place_probes(float spacing) {
   });
 }
 
-void App::take_probe_file(const std::string& file) {
+void App::take_probe_file(const std::string& file, bool anyway) {
   if (!scene_open()) throw Error(file, "there is no scene for these probes", "open the scene first");
   const std::vector<probes::ProbeKey> keys = probes::read_probe_keys(file);
   std::vector<probes::KeyedSet> sets;
@@ -143,7 +143,16 @@ void App::take_probe_file(const std::string& file) {
   } else {
     sets.push_back({0, probes::read_probe_file(keys.front().file)});
   }
-  for (probes::KeyedSet& key : sets) fit_to_scene(key.set, file);
+  for (probes::KeyedSet& key : sets) {
+    const std::string problem = misfit(key.set);
+    // What the command line names is refused; who sits at the window is asked.
+    if (!problem.empty() && !anyway && by_hand() && !failures_end && !options.force) {
+      question = {};
+      question.then = Question::Then::take_probes, question.source = file, question.problem = problem;
+      return redraw();
+    }
+    fit_to_scene(key.set, file, anyway);
+  }
   const std::vector<probes::Probe>& places = sets.front().set.probes;
   take_places("probes of a file", places);
   say(fmt::format("{}: {} probes", file, places.size()));
@@ -155,17 +164,20 @@ void App::take_probe_file(const std::string& file) {
   prepare_surfaces();
 }
 
-void App::fit_to_scene(probes::ProbeSet& set, const std::string& file) const {
-  if (set.generator.scene_hash != scene::light_hash(*document.opened)) {
-    const std::string problem = fmt::format("was baked in another scene (\"{}\")", set.generator.scene);
-    if (!options.force) throw Error(file, problem, "open that scene, or go on with --force");
+std::string App::misfit(const probes::ProbeSet& set) const {
+  if (set.generator.scene_hash != scene::light_hash(*document.opened))
+    return fmt::format("was baked in another scene (\"{}\")", set.generator.scene);
+  const std::string modes = bake::mode_difference(set, *document.opened);
+  return modes.empty() ? "" : "was baked with " + modes;
+}
+
+void App::fit_to_scene(probes::ProbeSet& set, const std::string& file, bool anyway) const {
+  if (const std::string problem = misfit(set); !problem.empty()) {
+    if (!anyway && !options.force)
+      throw Error(file, problem, "open that scene, bake it anew, or go on with --force as it was baked");
     log_warning("{}: {}", file, problem);
   }
-  const std::string modes = bake::mode_difference(set, *document.opened);
-  if (modes.empty()) return bake::adopt_modes(set, *document.opened);
-  const std::string problem = "was baked with " + modes;
-  if (!options.force) throw Error(file, problem, "bake it anew, or go on with --force as it was baked");
-  log_warning("{}: {}", file, problem);
+  if (bake::mode_difference(set, *document.opened).empty()) bake::adopt_modes(set, *document.opened);
 }
 
 void App::prepare_surfaces() {

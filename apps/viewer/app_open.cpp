@@ -33,6 +33,10 @@ bool is_profile(const std::string& file) {
   return file.ends_with(".ies") || file.ends_with(".IES");
 }
 
+bool is_sky(const std::string& file) {
+  return file.ends_with(".hdr") || file.ends_with(".HDR") || is_linear_picture(file);
+}
+
 std::string short_name(const std::string& source) {
   return source.starts_with("builtin:") ? source : fs::path(source).filename().string();
 }
@@ -114,6 +118,10 @@ void App::take_document(Loaded loaded) {
   fly_speed = document.bounds.empty()
                   ? 2
                   : std::max(2 * lengths_of(document.bounds).least, 0.25f * document.bounds.radius());
+  walker = walker_for(document.bounds);
+  walking = false;
+  frames.reset();
+  follows_exposure = true;
   update_title();
   redraw();
 }
@@ -173,14 +181,17 @@ void App::take_dropped(const std::vector<std::string>& files) {
       // What is in it can be chosen.
       return ask_for_file(FileDialog::For::open, file);
     }
-    const bool alone = files.size() == 1 && is_scene(file) && !is_profile(file);
+    const bool alone = files.size() == 1 && is_scene(file) && !is_profile(file) && !is_sky(file);
     (named_as_scene(file) || alone ? scenes : rest).push_back(file);
   }
   std::vector<std::string> strange;
+  bool has_sky = false;
   for (const std::string& file : rest) {
-    if (is_profile(file)) {
+    if (is_profile(file) || is_sky(file)) {
+      // There is one sky, and a scene that is dropped with it has its own.
+      if (is_sky(file) && (!scenes.empty() || std::exchange(has_sky, true))) continue;
       try {
-        take_profile(file);
+        is_sky(file) ? take_surroundings(file) : take_profile(file);
       } catch (const std::exception& e) {
         complain(e.what());
       }
@@ -202,7 +213,7 @@ void App::take_dropped(const std::vector<std::string>& files) {
     const std::size_t shown = std::min<std::size_t>(strange.size(), 3);
     complain(
         fmt::format("{}{}: neither a scene (.glb, .gltf, .obj, .ssphh.json) nor probes nor a camera path nor "
-                    "a lamp's profile (.ies)",
+                    "a lamp's profile (.ies) nor a sky (.hdr, .exr)",
                     fmt::join(strange.begin(), strange.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
                     strange.size() > shown ? fmt::format(" and {} more", strange.size() - shown) : ""));
   }

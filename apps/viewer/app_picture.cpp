@@ -32,7 +32,8 @@ bool App::picture_stale() const {
                        needs_truth(screen_.drawn->settings) != needs_truth(settings) ||
                        screen_.drawn->width != picture.width() || screen_.drawn->height != picture.height();
   const bool linear_missing = wants_linear() && picture.linear().empty();
-  return changed || screen_.scene_dirty || screen_.waiting_maps > 0 || linear_missing;
+  const bool to_file = screen_.linear_file && !screen_.linear_file->begun;
+  return changed || screen_.scene_dirty || screen_.waiting_maps > 0 || linear_missing || to_file;
 }
 
 /// A picture that is begun is drawn to its end, however often the view changes meanwhile, so that something
@@ -56,6 +57,7 @@ void App::draw_scene() {
   send_picture();
   draw_outline();
   update_truth();
+  write_linear();
   update_readings();
   update_marks();
 }
@@ -144,6 +146,7 @@ void App::begin_picture() {
     last_change_ = window.seconds();
   }
   if (!wants_linear()) picture.forget_linear();
+  if (screen_.linear_file) screen_.linear_file->begun = true, screen_.linear_file->mean = {};
   picture.begin(*renderer_, pose_of(view), frame_settings(settings));
   screen_.drawing = Drawing{false, 0};
   screen_.drawn = {view, settings, selection, picture.width(), picture.height()};
@@ -165,6 +168,8 @@ void App::continue_picture() {
 void App::finish_picture(const Drawing& done) {
   draw_balls();
   ++screen_.pictures;
+  if (screen_.linear_file && screen_.linear_file->begun)
+    screen_.linear_file->mean.add(renderer_->read_back());
   if (done.smooth) return picture.average();
   last_stats = renderer_->stats();
   screen_.waiting_maps = last_stats.shadow_maps_waiting;

@@ -39,6 +39,7 @@ void App::answer(Answer answer) {
   try {
     if (answer == Answer::recover) return recover(asked.kept);
     if (asked.then == Question::Then::recover) return autosave_.remove(asked.kept);
+    if (asked.then == Question::Then::take_probes) return take_probe_file(asked.source, true);
     if (answer == Answer::save && unsaved()) save();
     if (asked.then == Question::Then::open || asked.then == Question::Then::reload) open_lit(asked.source);
     if (asked.then == Question::Then::close) {

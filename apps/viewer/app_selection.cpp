@@ -6,6 +6,7 @@
 
 #include "app.h"
 #include "model/framing.h"
+#include "model/lengths.h"
 #include "model/objects.h"
 
 namespace ssphh::viewer {
@@ -60,7 +61,8 @@ void App::frame_selection() {
   scene::Bounds bounds = document.bounds;
   if (const auto position = selected_position()) {
     bounds = {};
-    bounds.add(*position - 0.5f), bounds.add(*position + 0.5f);
+    const float around = 5 * lengths_of(document.bounds).least;
+    bounds.add(*position - around), bounds.add(*position + around);
   } else if (selection.is(Kind::object)) {
     bounds = node_bounds(*document.scene, world, selection.index);
     // Of things far apart that are one mesh the one that was clicked.

@@ -16,17 +16,18 @@
 #include "model/lengths.h"
 #include "model/pick.h"
 #include "overlay.h"
+#include "rings.h"
 
 namespace ssphh::viewer {
 namespace {
 
 constexpr Shortcut all_shortcuts[] = {
     {"click", "select an object, a lamp or a probe's ball"},
-    {"left drag", "turn about what is under the mouse; on a lamp or probe: move it"},
+    {"left drag", "turn the view; move a lamp or probe, turn a ring (Ctrl: in steps)"},
     {"right drag", "look around"},
     {"middle or Shift drag", "move sideways"},
     {"wheel", "nearer, farther"},
-    {"W A S D, Q E", "fly; with Shift faster"},
+    {"W A S D, Q E; V", "fly, with Shift faster; walk on the ground"},
     {"F", "frame the selection, or all, from within the room"},
     {"Home", "the scene's first camera"},
     {"numpad 1 3 7, 5", "from the front, right, above (Ctrl: opposite), orthographic"},
@@ -47,7 +48,7 @@ constexpr Shortcut all_shortcuts[] = {
     {"Ctrl+Z, Ctrl+Y", "undo, redo (also Ctrl+Shift+Z)"},
     {"Ctrl+O", "open a file"},
     {"Ctrl+S, Ctrl+Shift+S", "save the scene over its own GLB file, under a name"},
-    {"F12, Shift+F12", "screenshot; the picture in the program tev"},
+    {"F12, Ctrl+F12", "screenshot; under a name, also linear (Shift: in the program tev)"},
     {"Tab", "panels on, off"},
     {"F1 or H", "this help"},
     {"Escape", "leave a mode; no selection"},
@@ -84,6 +85,7 @@ void handle_control_keys(App& app) {
   if (repeated(GLFW_KEY_Z)) ImGui::GetIO().KeyShift ? app.redo() : app.undo();
   if (repeated(GLFW_KEY_Y)) app.redo();
   if (pressed(GLFW_KEY_D)) app.duplicate_lamp();
+  if (pressed(GLFW_KEY_F12)) app.ask_for_file(FileDialog::For::picture);
   if (pressed(GLFW_KEY_S)) ImGui::GetIO().KeyShift ? app.ask_for_file(FileDialog::For::scene) : app.save();
 }
 
@@ -102,8 +104,9 @@ void handle_keys(App& app) {
   if (pressed(GLFW_KEY_F1) || pressed(GLFW_KEY_H)) toggle(app, app.help);
   if (pressed(GLFW_KEY_TAB)) toggle(app, app.panels);
   if (pressed(GLFW_KEY_ESCAPE) && app.job.status().name.starts_with("loading")) app.job.cancel();
+  if (pressed(GLFW_KEY_ESCAPE)) stop_frames(app);
   if (pressed(GLFW_KEY_ESCAPE))
-    app.help = app.place_mode = app.aim_mode = app.inspecting = false, app.selection = {};
+    app.help = app.place_mode = app.aim_mode = app.inspecting = app.walking = false, app.selection = {};
   if (ImGui::GetIO().KeyCtrl && pressed(GLFW_KEY_O)) return app.ask_for_file(FileDialog::For::open);
   if (!app.scene_open()) return;
   handle_view_keys(app);
@@ -120,6 +123,7 @@ void handle_keys(App& app) {
     if (app.aim_mode) app.say("click what the lamp is to shine at");
   }
   if (pressed('I')) app.toggle_inspector();
+  if (pressed('V')) app.toggle_walk();
   if (pressed(GLFW_KEY_DELETE)) app.delete_selection();
   for (const char key : setting_keys) {
     const bool steps = key == '[' || key == ']';
@@ -133,6 +137,7 @@ void fly(App& app, float seconds) {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.KeyCtrl) return;
   const vec3 way = fly_direction([](char key) { return ImGui::IsKeyDown(key); });
+  if (app.walking) return app.walk((io.KeyShift ? 2.5f : 1.0f) * vec2(way.x, way.z), seconds);
   if (way == vec3(0)) return;
   app.view = moved(app.view, way * (app.fly_speed * seconds * (io.KeyShift ? 4.0f : 1.0f)));
   app.path_plays = false;
@@ -151,7 +156,9 @@ rays::RayQuery mouse_ray(const App& app) {
 /// `axis` −1: in the plane that faces the view.
 void grab(App& app, Drag::What what, int axis) {
   app.document.history.seal();
-  app.drag = {what, taken(mouse_ray(app), *app.selected_position(), axis, app.view.forward()), false, 0, {}};
+  app.drag = {};
+  app.drag.what = what;
+  app.drag.grip = taken(mouse_ray(app), *app.selected_position(), axis, app.view.forward());
 }
 
 /// The SPHL whose ball is under the mouse; −1: none.
@@ -170,16 +177,17 @@ int ball_under_mouse(const App& app) {
   return sphl_of_probe(app, pick_sphere(ray, centers, 1.1f * radius, limit));
 }
 
-/// A click in place mode: an SPHL half a metre off the surface under the mouse, or nearer in narrow places.
+/// A click in place mode: an SPHL off the surface under the mouse, half a metre in a room, or nearer in
+/// narrow places.
 void place_sphl(App& app) {
   if (!app.picking()) return;
   const auto surface = pick_surface(*app.picking(), app.document.time, mouse_ray(app));
   if (!surface) return app.say("there is no surface under the mouse");
-  const float gap = 0.01f * lengths_of(app.document.bounds).least;
-  const rays::RayQuery off{surface->position + gap * surface->normal, surface->normal, 100};
+  const float least = lengths_of(app.document.bounds).least, gap = 0.01f * least;
+  const rays::RayQuery off{surface->position + gap * surface->normal, surface->normal, 1e3f * least};
   const auto ceiling = pick_surface(*app.picking(), app.document.time, off);
-  const float room = ceiling ? glm::distance(ceiling->position, off.origin) : 1;
-  app.add_sphl(surface->position + std::min(0.5f, 0.5f * room) * surface->normal);
+  const float room = ceiling ? glm::distance(ceiling->position, off.origin) : 10 * least;
+  app.add_sphl(surface->position + std::min(5 * least, 0.5f * room) * surface->normal);
   app.place_mode = ImGui::GetIO().KeyShift;
 }
 
@@ -200,6 +208,19 @@ void drag_aim(App& app) {
   } else if (const auto origin = app.aim_origin()) {
     app.turn_selected(on_ball(ray, *origin, aim_length(app)) - *origin);
   }
+  const float step = glm::degrees(angle_step(app));
+  if (step == 0) return;
+  const auto i = static_cast<std::size_t>(app.selection.index);
+  PanTilt angles = pan_tilt_of(light_direction(app.document.lighting().lights[i].world));
+  angles.pan = in_steps(angles.pan, step), angles.tilt = in_steps(angles.tilt, step);
+  app.turn_selected(direction_of(angles));
+}
+
+void drag_ring(App& app) {
+  const auto angle = turned_by(app.drag.ring, mouse_ray(app));
+  if (!angle) return;
+  app.drag.turned = in_steps(*angle, angle_step(app));
+  app.pose_selected(turned_about(app.drag.ring.start, app.drag.ring.ring.axis, app.drag.turned));
 }
 
 void begin_left(App& app) {
@@ -217,6 +238,13 @@ void begin_left(App& app) {
     app.drag.what = Drag::What::aim;
     return;
   }
+  if (const auto ring = ring_under_mouse(app, mouse.x, mouse.y)) {
+    app.document.history.seal();
+    app.drag.what = Drag::What::ring;
+    const auto i = static_cast<std::size_t>(app.selection.index);
+    app.drag.ring = taken(ring->ring, mouse_ray(app), app.document.lighting().lights[i].world);
+    return;
+  }
   if (app.settings.show == Show::wipe &&
       std::abs(mouse.x - (app.viewport.x + app.settings.wipe * app.viewport.width)) < 8) {
     app.drag.what = Drag::What::wipe;
@@ -230,7 +258,7 @@ void begin_left(App& app) {
   }
   if (hit.kind == Kind::none) {
     app.drag.what = Drag::What::view;
-    if (app.picking()) {
+    if (app.picking() && !app.walking) {
       if (const auto surface = pick_surface(*app.picking(), app.document.time, mouse_ray(app)))
         app.drag.pivot = surface->position;
     }
@@ -254,14 +282,15 @@ void continue_drag(App& app) {
     app.view = orbited_within(app.view, *app.drag.pivot, -0.005f * delta.x, -0.005f * delta.y,
                               {*app.picking(), app.document.time});
   else if (what == What::view)
-    drag_view(ViewDrag::orbit);
+    drag_view(app.walking ? ViewDrag::look : ViewDrag::orbit);
   if (what == What::look) drag_view(ViewDrag::look);
-  if (what == What::pan) drag_view(ViewDrag::pan);
+  if (what == What::pan) drag_view(app.walking ? ViewDrag::look : ViewDrag::pan);
   if (what == What::object || what == What::axis) {
     const auto place = pulled(app.drag.grip, mouse_ray(app), app.view.forward());
-    if (place) app.move_selected(*place);
+    if (place) app.move_selected(in_steps(*place, app.drag.grip.axis, place_step(app)));
   }
   if (what == What::aim) drag_aim(app);
+  if (what == What::ring) drag_ring(app);
   if (what == What::wipe)
     app.settings.wipe = std::clamp(picture_point(app, ImGui::GetIO().MousePos).x, 0.0f, 1.0f);
   app.path_plays = false;
@@ -289,7 +318,7 @@ void handle_mouse(App& app) {
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Middle)) app.drag.what = Drag::What::pan;
   }
   if (app.drag.what != Drag::What::none) continue_drag(app);
-  if (inside && io.MouseWheel != 0) {
+  if (inside && io.MouseWheel != 0 && !app.walking) {
     app.view = wheeled(app.view, io.MouseWheel);
     app.redraw();
   }

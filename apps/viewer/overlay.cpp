@@ -4,29 +4,14 @@
 #include <cmath>
 #include <optional>
 
-#include <imgui.h>
-
 #include "app.h"
+#include "on_screen.h"
+#include "rings.h"
 
 namespace ssphh::viewer {
 namespace {
 
-constexpr ImU32 axis_colors[3] = {IM_COL32(235, 80, 80, 255), IM_COL32(110, 210, 90, 255),
-                                  IM_COL32(90, 150, 250, 255)};
 constexpr float lamp_radius = 8, handle_radius = 7;
-
-std::optional<ImVec2> on_screen(const App& app, const vec3& point) {
-  const Rect2& r = app.viewport;
-  const vec3 p = project(app.view, point, r.aspect());
-  if (p.z <= 0.01f) return {};
-  return ImVec2(r.x + p.x * r.width, r.y + (1 - p.y) * r.height);
-}
-
-/// Metres that the handles' axes are long, such that they have one size on the screen.
-float axis_length(const App& app, const vec3& point) {
-  const float depth = std::max(project(app.view, point, app.viewport.aspect()).z, 0.01f);
-  return app.view.orthographic ? 0.12f * app.view.yheight : 0.24f * depth * std::tan(0.5f * app.view.yfov);
-}
 
 const vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
@@ -240,7 +225,9 @@ void draw_overlay(const App& app, const std::vector<unsigned char>& visible) {
   if (app.settings.names && !app.light.empty()) draw_names(app, visible, list);
   draw_lamps(app, list);
   draw_lamp_shape(app, list);
+  draw_rings(app, list);
   draw_handles(app, list);
+  draw_drag_value(app, list);
   if (app.settings.show == Show::wipe) draw_wipe(app, list);
   list.PopClipRect();
 }

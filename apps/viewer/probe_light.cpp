@@ -94,7 +94,7 @@ bool ProbeLight::relight(const Document& document) {
   if (lighting_ == state) return false;
   if (live_) {
     // Until it is built anew for other lamps it holds still.
-    if (!has_lamps(live_->scene(), document.edits())) return false;
+    if (!document.lamps_are_of(live_->scene())) return false;
     report_ = live_->update(state);
     live_->refresh(*set_);
   } else {

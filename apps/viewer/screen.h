@@ -9,6 +9,7 @@
 
 #include "model/balls.h"
 #include "model/edits.h"
+#include "model/linear_picture.h"
 #include "model/live_light.h"
 #include "model/selection.h"
 #include "model/settings.h"
@@ -28,6 +29,13 @@ struct DrawnWith {
 struct Drawing {
   bool smooth = false;  ///< another one for the mean of a picture that stands still
   double seconds = 0;   ///< so far
+};
+
+/// A file that is to get the picture's linear light.
+struct LinearFile {
+  std::string file;
+  bool begun = false;  ///< pictures are drawn for it
+  LinearMean mean;     ///< of those of now
 };
 
 /// What marks over a picture hold for.
@@ -69,7 +77,8 @@ struct Screen {
   std::optional<Settings> truth_settings;   ///< that the truth was made for
   std::pair<std::string, int> truth_asked;  ///< method and depth of what is traced
 
-  bool to_send = false;  ///< the next picture is to be shown elsewhere, too
+  bool to_send = false;                   ///< the next picture is to be shown elsewhere, too
+  std::optional<LinearFile> linear_file;  ///< none: nobody asked for one
 
   bool scene_dirty = true, balls_dirty = true, truth_dirty = true;
 
@@ -78,7 +87,7 @@ struct Screen {
   /// Another scene takes the place of the one that is shown.
   void forget() {
     drawn.reset(), drawing.reset(), outline.reset(), visible_from.reset(), readings.reset();
-    marked.reset();
+    marked.reset(), linear_file.reset();
     to_send = false;
     scene_dirty = true;
   }

@@ -11,6 +11,7 @@
 #include "model/lamp_aim.h"
 #include "model/lamp_profile.h"
 #include "model/overlay_file.h"
+#include "model/ring.h"
 #include "model/sky_edit.h"
 
 namespace ssphh::viewer {
@@ -19,7 +20,8 @@ const char* const script_help =
     "set NAME VALUE | time T | camera NAME | view X Y Z TO_X TO_Y TO_Z | tab NAME | "
     "add-camera NAME | add-light point|spot|directional|sphere|sphl NAME X Y Z | light NAME delete | "
     "light NAME duplicate | light NAME aim X Y Z | light NAME on|off | light NAME color R G B | "
-    "light NAME profile FILE|none | light NAME turn DEGREES | light NAME position X Y Z | light NAME "
+    "light NAME profile FILE|none | light NAME turn DEGREES | light NAME pan-tilt PAN TILT | light NAME "
+    "position X Y Z | light NAME "
     "intensity V (radius, range, "
     "outer-cone, inner-cone, diameter) | "
     "group NAME FACTOR | environment DEGREES | sun ELEVATION AZIMUTH | time-of-day HH:MM | material NAME R G "
@@ -84,6 +86,12 @@ void edit_light(App& app, const ScriptLine& line) {
     expect_words(line, 3, "light NAME turn DEGREES");
     const float turn = glm::radians(number(line, 3));
     edit([&](LightEdit& light) { light.world = with_turn(world, turn); });
+  } else if (what == "pan-tilt") {
+    expect_words(line, 4, "light NAME pan-tilt PAN TILT");
+    app.selection = {Kind::light, static_cast<int>(i)};
+    if (!app.can_aim())
+      throw Error(line.where, fmt::format("{} shines alike in all directions", line.words[1]));
+    app.turn_selected(direction_of({number(line, 3), std::clamp(number(line, 4), -90.0f, 90.0f)}));
   } else if (what == "position") {
     expect_words(line, 5, "light NAME position X Y Z");
     edit([&](LightEdit& light) { light.world = with_position(world, vector(line, 3)); });
@@ -92,7 +100,7 @@ void edit_light(App& app, const ScriptLine& line) {
     std::string name = what;
     std::ranges::replace(name, '-', ' ');
     std::vector<std::string> known = {"on",    "off",     "delete", "duplicate", "aim",
-                                      "color", "profile", "turn",   "position"};
+                                      "color", "profile", "turn",   "pan-tilt",  "position"};
     for (const LampNumber& n : lamp_numbers(app.document.edits().lights[i])) known.emplace_back(n.name);
     if (std::ranges::find(known, name) == known.end()) throw Error(line.where, none_of(what, known));
     expect_words(line, 3, "light NAME intensity V");
@@ -261,6 +269,7 @@ void ScriptPlayer::run(App& app, const ScriptLine& line) {
     expect(panels ? 2 : 1, "screenshot FILE [panels]");
     app.screenshot(words[1], panels);
     wait_frames_ = panels ? 1 : 0;
+    settling_ = is_linear_picture(words[1]);
   } else if (verb == "save") {
     expect(1, "save FILE");
     save(app, words[1]);

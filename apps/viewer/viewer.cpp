@@ -5,7 +5,6 @@
 
 #include "app.h"
 #include "glfw_window.h"
-#include "model/frame_files.h"
 #include "script_player.h"
 
 namespace ssphh::viewer {
@@ -87,28 +86,15 @@ void begin(App& app, Session& session, const ViewerOptions& options) {
 
 /// Pictures of a camera path, each once its light is complete.
 void export_path(App& app, Session& session, const ViewerOptions& options, const Control& control) {
-  std::error_code error;
-  std::filesystem::create_directories(options.export_dir, error);
-  if (!std::filesystem::is_directory(options.export_dir))
-    throw Error(options.export_dir, "cannot make this folder for the frames");
-  const CameraPath path = app.bookmarks;
-  const int frames = 1 + static_cast<int>(path.duration() * options.fps);
-  ProgressStage progress(control, "drawing", static_cast<std::uint64_t>(frames), "frames");
-  // Turns of the window are as many as light in the background takes: the frames count.
-  app.follows_exposure = false;
-  for (int f = 0; f < frames; ++f) {
-    app.go_to(at(path, path.keys.front().time + static_cast<float>(f / options.fps)));
-    if (f == 0) {
-      if (!session.settle()) throw Cancelled();
-    } else {
-      if (!session.until([&] { return app.current(); })) throw Cancelled();
-      app.follow_exposure();
-      if (!session.until([&] { return app.settled(); })) throw Cancelled();
-    }
-    app.screenshot((std::filesystem::path(options.export_dir) / frame_name(f)).string(), false);
-    progress.advance(1);
-  }
-  remove_frames_from(options.export_dir, frames);
+  FrameExport frames(app, options.export_dir, options.fps);
+  ProgressStage progress(control, "drawing", static_cast<std::uint64_t>(frames.count()), "frames");
+  int told = 0;
+  const bool all = session.until([&] {
+    const bool done = frames.step(app);
+    for (; told < frames.done(); ++told) progress.advance(1);
+    return done;
+  });
+  if (!all) throw Cancelled();
 }
 
 void play(App& app, Session& session, const ViewerOptions& options) {
@@ -140,7 +126,7 @@ ViewerReport run_session(Window& window, const ViewerOptions& options, const Loa
   if (batch && !control.cancelled()) session.settle();
   if (!options.screenshot.empty()) {
     app.screenshot(options.screenshot, options.panels);
-    session.turn();
+    session.until([&] { return app.current(); });
   }
   if (!options.export_dir.empty()) export_path(app, session, options, control);
   if (!options.stats.empty()) app.save_stats(options.stats);

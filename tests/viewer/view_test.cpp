@@ -151,6 +151,23 @@ TEST_F(View, ALampAndACameraOfAnOverlayAreThoseOfRender) {
   }
 }
 
+TEST_F(View, AnExrHasTheLightOfRender) {
+  run_json({"view", "builtin:cornell", "--size", "96x96", "--no-panels", "--probes", "off", "--exposure", "2",
+            "--screenshot", path("view.exr")});
+  run_json({"render", "builtin:cornell", "--backend", "gl", "--method", "direct", "--width", "96", "--height",
+            "96", "--spp", "16", "-o", path("render.exr")});
+  const image::Image view = image::read_image(dir_ / "view.exr"),
+                     render = image::read_image(dir_ / "render.exr");
+  ASSERT_EQ(view.pixels.size(), render.pixels.size());
+  double difference = 0, all = 0;
+  for (std::size_t i = 0; i < view.pixels.size(); ++i) {
+    const float a = std::min(view.pixels[i], 1.0f), b = std::min(render.pixels[i], 1.0f);
+    difference += std::abs(a - b), all += b;
+  }
+  EXPECT_GT(all, 0);
+  EXPECT_LT(difference, 0.01 * all) << "the mean of 16 frames, whatever the exposure";
+}
+
 TEST_F(View, FramesOfAPathGlideToWhatSuitsThemAlike) {
   const auto view = [](float time, float x) {
     return fmt::format(

@@ -141,7 +141,9 @@ void add_view_command(Command app, Context& context) {
   output.option("--export", o.viewer.export_dir, "Draw the path as DIR/frame-0000.png and so on, and end");
   output.option("--fps", o.viewer.fps, "Of the exported frames").range(0.001, 10000.0);
   output.option("--screenshot", o.viewer.screenshot,
-                "Write the window (or with --no-panels the picture) to this PNG once all is lit, and end");
+                "Write the window (or with --no-panels the picture) to this PNG, or the picture's linear "
+                "light to this EXR, "
+                "once all is lit, and end");
   output.option("--script", o.viewer.script, "Do what this file says (docs/viewer.md)");
   output.option("--stats", o.viewer.stats, "Write the frames' times at the end: .json, or .csv");
   output.option("--frames", o.viewer.frames, "End after so many frames; 0: when the window is closed")

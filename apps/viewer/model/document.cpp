@@ -35,10 +35,9 @@ std::vector<scene::ProbePlace> Document::places() const {
 }
 
 bool Document::follow_lamps() {
-  if (has_lamps(*scene, edits())) return true;
+  if (lamps_are_of(*scene)) return true;
   // Once all lamps are as they were, so is the scene.
-  scene = has_lamps(*opened, edits()) ? opened
-                                      : std::make_shared<const scene::Scene>(with_lamps(*opened, edits()));
+  scene = lamps_are_of(*opened) ? opened : std::make_shared<const scene::Scene>(with_lamps(*opened, edits()));
   return true;
 }
 

@@ -27,6 +27,8 @@ struct Document {
   const Edits& edits() const { return history.now(); }
   /// Whether there are edits that no file has.
   bool dirty() const { return history.serial() != saved; }
+  /// Whether a scene has the lamps and the surroundings of now.
+  bool lamps_are_of(const scene::Scene& other) const { return has_lamps(other, *opened, edits()); }
   /// What lights the scene now, edits and time included.
   scene::LightingState lighting() const { return edited_lighting(*scene, edits(), time); }
   /// The scene with all edits done.

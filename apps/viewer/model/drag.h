@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "gestures.h"
+#include "ring.h"
 
 namespace ssphh::viewer {
 
@@ -16,8 +17,10 @@ struct Rect2 {
 
 /// What the mouse drags.
 struct Drag {
-  enum class What { none, view, look, pan, object, axis, aim, wipe } what = What::none;
+  enum class What { none, view, look, pan, object, axis, ring, aim, wipe } what = What::none;
   Grip grip;                  ///< of objects
+  RingGrip ring;              ///< of rings
+  float turned = 0;           ///< of a ring, since the press [rad]
   bool moved = false;         ///< since the press
   float way = 0;              ///< of the mouse since then [pixels]
   std::optional<vec3> pivot;  ///< what a turn of the view turns about; none: the view's focus

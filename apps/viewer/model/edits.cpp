@@ -1,9 +1,12 @@
 #include "edits.h"
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 
+#include <ssphh/image/io.h>
 #include <ssphh/scene/turn_surroundings.h>
 
 namespace ssphh::viewer {
@@ -71,7 +74,41 @@ int same_in(const List& before, int index, const List& after, const Same& same) 
   return found == after.end() ? -1 : static_cast<int>(found - after.begin());
 }
 
+/// By some thousand pixels: every frame asks, and pictures of skies are large.
+bool same_image(const image::Image& a, const image::Image& b) {
+  if (a.width != b.width || a.height != b.height || a.channels != b.channels) return false;
+  const std::size_t step = std::max<std::size_t>(a.pixels.size() / 4099, 1);
+  for (std::size_t i = 0; i < a.pixels.size(); i += step) {
+    if (a.pixels[i] != b.pixels[i]) return false;
+  }
+  return true;
+}
+
+bool has_surroundings(const scene::Scene& scene, const scene::Scene& opened, const Edits& edits) {
+  if (&scene == &opened) return !edits.surroundings;
+  if (edits.surroundings)
+    return scene.environment && !scene.environment->sun_sky &&
+           same_image(scene.environment->equirect, *edits.surroundings->image);
+  if (!scene.environment || !opened.environment)
+    return scene.environment.has_value() == opened.environment.has_value();
+  return same_image(scene.environment->equirect, opened.environment->equirect);
+}
+
 }  // namespace
+
+Surroundings read_surroundings(const std::string& file) {
+  const image::Image read = image::read_image(file);
+  if (read.width != 2 * read.height)
+    throw Error(file, fmt::format("{} by {} pixels are no picture of the whole sky", read.width, read.height),
+                "take an equirectangular one, twice as wide as high");
+  auto picture = std::make_shared<image::Image>(read.width, read.height);
+  for (int y = 0; y < read.height; ++y) {
+    for (int x = 0; x < read.width; ++x) picture->set_rgb(x, y, glm::max(read.rgb(x, y), vec3(0)));
+  }
+  if (!std::ranges::all_of(read.pixels, [](float v) { return std::isfinite(v); }))
+    throw Error(file, "holds radiance that is not finite");
+  return {std::filesystem::absolute(file).lexically_normal().string(), std::move(picture)};
+}
 
 Edits edits_of(const scene::Scene& scene) {
   Edits edits;
@@ -110,11 +147,20 @@ scene::Scene with_lamps(scene::Scene scene, const Edits& edits) {
     lights.push_back(std::move(light));
   }
   scene.lights = std::move(lights);
+  if (edits.surroundings) {
+    scene::Environment environment;
+    // Factors on its group go on to hold.
+    if (scene.environment)
+      environment.name = scene.environment->name, environment.group = scene.environment->group;
+    environment.equirect = *edits.surroundings->image;
+    scene.environment = std::move(environment);
+  }
   return scene;
 }
 
-bool has_lamps(const scene::Scene& scene, const Edits& edits) {
-  return std::ranges::equal(scene.lights, edits.lights,
+bool has_lamps(const scene::Scene& scene, const scene::Scene& opened, const Edits& edits) {
+  return has_surroundings(scene, opened, edits) &&
+         std::ranges::equal(scene.lights, edits.lights,
                             [](const scene::Light& a, const LightEdit& b) { return lamp_of(a) == b.lamp; });
 }
 
@@ -164,8 +210,9 @@ bool same_places(const std::vector<SphlEdit>& a, const std::vector<SphlEdit>& b)
 
 bool same_light(const Edits& a, const Edits& b) {
   const auto sky = [](const Edits& e) { return e.sky ? e.sky->image : nullptr; };
-  return a.lights == b.lights && a.environment_rotation == b.environment_rotation && sky(a) == sky(b) &&
-         std::ranges::equal(a.materials, b.materials, same_surface);
+  const auto around = [](const Edits& e) { return e.surroundings ? e.surroundings->image : nullptr; };
+  return around(a) == around(b) && a.lights == b.lights && a.environment_rotation == b.environment_rotation &&
+         sky(a) == sky(b) && std::ranges::equal(a.materials, b.materials, same_surface);
 }
 
 vec3 sphl_position(const scene::Scene& scene, const std::vector<mat4>& world, const SphlEdit& sphl) {

@@ -2,6 +2,7 @@
 /// Everything a user may change in a scene, as a value beside the scene: what undo keeps and saving applies.
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,12 +35,21 @@ struct CameraEdit {
   friend bool operator==(const CameraEdit&, const CameraEdit&) = default;
 };
 
+/// A picture of the whole sky, equirectangular, in place of the scene's environment.
+struct Surroundings {
+  std::string file;                           ///< whole path
+  std::shared_ptr<const image::Image> image;  ///< radiance, three channels
+};
+/// Reads one (.hdr, .exr). Throws Error where the file holds none.
+Surroundings read_surroundings(const std::string& file);
+
 struct Edits {
-  std::vector<LightEdit> lights;           ///< the scene's that are left, and new ones
-  std::map<std::string, vec3> groups;      ///< factors on light groups; a group that is left out has 1
-  float environment_rotation = 0;          ///< about +y beyond the scene's own [rad]
-  std::optional<scene::SunSky> sky;        ///< in place of the scene's computed one; none: that one
-  std::vector<scene::Material> materials;  ///< one per material of the scene
+  std::vector<LightEdit> lights;             ///< the scene's that are left, and new ones
+  std::map<std::string, vec3> groups;        ///< factors on light groups; a group that is left out has 1
+  float environment_rotation = 0;            ///< about +y beyond the scene's own [rad]
+  std::optional<scene::SunSky> sky;          ///< in place of the scene's computed one; none: that one
+  std::optional<Surroundings> surroundings;  ///< in place of what surrounds the scene; `sky` is none then
+  std::vector<scene::Material> materials;    ///< one per material of the scene
   std::vector<SphlEdit> sphls;
   std::vector<CameraEdit> cameras;
 };
@@ -52,11 +62,12 @@ Edits edits_of(const scene::Scene& scene);
 bool same_surface(const scene::Material& a, const scene::Material& b);
 
 /// The scene with the lamps of the edits, each with its shape but with the place, colour and intensity that
-/// it had: what renderers and light transport are built for, and indices of lamps count. `opened`: without
-/// any edit.
+/// it had, and with their surroundings: what renderers and light transport are built for, and indices of
+/// lamps count. `opened`: without any edit.
 scene::Scene with_lamps(scene::Scene opened, const Edits& edits);
-/// Whether the scene's lamps are those of the edits, but for place, colour and intensity.
-bool has_lamps(const scene::Scene& scene, const Edits& edits);
+/// Whether the scene's lamps are those of the edits, but for place, colour and intensity, and so are its
+/// surroundings; `opened` as before.
+bool has_lamps(const scene::Scene& scene, const scene::Scene& opened, const Edits& edits);
 
 /// What lights the scene at `time` with the edits: what renderers and relighting take. `scene` has their
 /// lamps.

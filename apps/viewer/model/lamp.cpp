@@ -15,6 +15,9 @@ namespace {
 
 using enum scene::LightType;
 
+/// Of lamps in a watch and over a valley [m].
+constexpr float least_length = 1e-6f, most_length = 1e5f;
+
 /// Of a number, with the name that it has in messages.
 float& member(LightEdit& light, const std::string& name) {
   Lamp& lamp = light.lamp;
@@ -82,12 +85,12 @@ std::vector<LampNumber> lamp_numbers(const LightEdit& light) {
                        0.001f, 0, 0, 1e7f});
   if (type == rectangle) {
     numbers.push_back({"width", "m",
-                       "Along the lamp's x axis. A larger lamp of one intensity gives more light.", 0.001f, 0,
-                       0.001f, 100});
-    numbers.push_back({"height", "m", "Along the lamp's y axis.", 0.001f, 0, 0.001f, 100});
+                       "Along the lamp's x axis. A larger lamp of one intensity gives more light.", 0, 0,
+                       least_length, most_length});
+    numbers.push_back({"height", "m", "Along the lamp's y axis.", 0, 0, least_length, most_length});
   }
   if (type == sphere || type == sphl || type == disc)
-    numbers.push_back({"radius", "m", "Larger lamps have softer shadows.", 0.001f, 0, 0.001f, 100});
+    numbers.push_back({"radius", "m", "Larger lamps have softer shadows.", 0, 0, least_length, most_length});
   if (type == spot) {
     numbers.push_back({"outer cone", "°", "From the axis to where the light ends.", 0.1f, 0, 0.5f, 90});
     numbers.push_back(
@@ -95,7 +98,7 @@ std::vector<LampNumber> lamp_numbers(const LightEdit& light) {
   }
   if (type == point || type == spot)
     numbers.push_back(
-        {"range", "m", "Beyond this distance it does not shine; 0: no limit.", 0.01f, 0, 0, 10000});
+        {"range", "m", "Beyond this distance it does not shine; 0: no limit.", 0, 0, 0, most_length});
   if (type == directional)
     numbers.push_back({"diameter", "°", "Of its disc in the sky: the sun's is 0.53°, 0 has sharp shadows.",
                        0.01f, 0, 0, 180});

@@ -41,7 +41,7 @@ struct LightEdit {
 /// A number of a lamp in the unit that users see.
 struct LampNumber {
   const char *name, *unit, *help;
-  float step;  ///< least of a drag [a pixel]
+  float step;  ///< least of a drag [a pixel]; 0: of a length, as suits the scene
   float value, low, high;
 };
 

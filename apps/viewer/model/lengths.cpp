@@ -24,6 +24,10 @@ Lengths lengths_of(const scene::Bounds& bounds) {
   return {std::min(0.1f, 0.04f * radius), step, std::clamp(-place, 2, 8)};
 }
 
+float snap_step(const Lengths& lengths) {
+  return 10 * lengths.step;
+}
+
 const char* length_format(int decimals) {
   constexpr std::array<const char*, 10> formats = {"%.0f", "%.1f", "%.2f", "%.3f", "%.4f",
                                                    "%.5f", "%.6f", "%.7f", "%.8f", "%.9f"};

@@ -14,6 +14,9 @@ struct Lengths {
 };
 Lengths lengths_of(const scene::Bounds& bounds);
 
+/// Step of places that are dragged in steps [m]; a tenth of a metre in a room.
+float snap_step(const Lengths& lengths);
+
 /// Of printf.
 const char* length_format(int decimals);
 

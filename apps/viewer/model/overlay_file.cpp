@@ -34,7 +34,9 @@ json::Value degrees(float radians) {
 std::string path_from(const fs::path& folder, const std::string& file) {
   if (file.starts_with("builtin:")) return file;
   const fs::path whole = fs::absolute(file).lexically_normal();
-  const fs::path way = whole.lexically_relative(fs::absolute(folder).lexically_normal());
+  // No name of a folder is the current one.
+  const fs::path from = (fs::current_path() / folder).lexically_normal();
+  const fs::path way = whole.lexically_relative(from);
   return way.empty() || *way.begin() == ".." ? whole.string() : way.string();
 }
 
@@ -258,6 +260,12 @@ json::Value overlay_of(const Document& document, const fs::path& folder) {
   add_cameras(overlay, document);
   add_materials(overlay, document);
   if (edits.sky) overlay["sun_sky"] = sky_of(edits.sky->params, of_sky);
+  if (edits.surroundings) {
+    overlay["environment"]["image"] = path_from(folder, edits.surroundings->file);
+    const scene::Environment& own = *document.scene->environment;
+    overlay["environment"]["name"] = own.name;
+    if (!own.group.empty()) overlay["environment"]["light_group"] = own.group;
+  }
   if (edits.environment_rotation != 0)
     overlay["environment_turn_degrees"] = degrees(edits.environment_rotation);
   for (const auto& [group, factor] : edits.groups) overlay["light_factors"][group] = vector(factor);

@@ -100,6 +100,11 @@ struct Settings {
   Ball ball = Ball::radiance;
   float ball_size = 0;  ///< radius [m]; 0: as default_ball_size() has it
 
+  // Handles in the picture
+  bool snap = false;      ///< drags go in steps, and freely with Ctrl; else the other way round
+  float snap_step = 0;    ///< [m]; 0: as suits the scene
+  float snap_angle = 15;  ///< [degrees]
+
   // The scene's time
   bool play = false;
   float speed = 0.5f;  ///< seconds of the scene per second

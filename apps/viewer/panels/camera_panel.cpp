@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include "app.h"
+#include "model/frame_files.h"
 #include "model/lengths.h"
 #include "panels.h"
 #include "widgets.h"
@@ -83,7 +84,42 @@ void draw_view(App& app) {
   row("fly [m/s]");
   ImGui::DragFloat("##speed", &app.fly_speed, 5 * lengths.step, 5 * lengths.step, 5e4f * lengths.step,
                    length_format(lengths.decimals));
+  row("eye height [m]");
+  ImGui::DragFloat("##tall", &app.walker.eye, lengths.step, lengths.step, 1e4f * lengths.step,
+                   length_format(lengths.decimals), ImGuiSliderFlags_AlwaysClamp);
+  tip("Of who walks, above the ground.");
+  if (wide_button(app.walking ? "Stop walking (V)" : "Walk (V)")) app.toggle_walk();
   if (wide_button("Frame everything (F)")) app.selection = {}, app.frame_selection();
+}
+
+/// The path as a sequence of pictures.
+void draw_frames(App& app) {
+  if (app.frames) {
+    const float share = static_cast<float>(app.frames->done()) / static_cast<float>(app.frames->count());
+    ImGui::ProgressBar(share, {-1, 0},
+                       fmt::format("frame {} of {}", app.frames->done() + 1, app.frames->count()).c_str());
+    if (wide_button("Stop (Escape)")) stop_frames(app);
+    return;
+  }
+  if (app.bookmarks.empty()) return;
+  static char folder[256] = "frames";
+  static int fps = 30;
+  // Asked for once, while there were some already
+  static std::string replaces;
+  file_row("frames in", folder);
+  row("a second");
+  ImGui::DragInt("##fps", &fps, 0.2f, 1, 240, "%d", ImGuiSliderFlags_AlwaysClamp);
+  if (replaces != folder) replaces.clear();
+  if (!wide_button(replaces.empty() ? "Draw the frames" : "Replace the frames there")) return;
+  attempt(app, [&] {
+    const std::filesystem::path first = std::filesystem::path(folder) / frame_name(0);
+    if (replaces.empty() && std::filesystem::exists(first)) {
+      replaces = folder;
+      return app.say(first.string() + " is there already: press once more to replace the frames");
+    }
+    replaces.clear();
+    export_frames(app, folder, fps);
+  });
 }
 
 void draw_bookmarks(App& app) {
@@ -120,8 +156,7 @@ void draw_bookmarks(App& app) {
   if (ImGui::Button("Save")) attempt(app, [&] { app.save_path(file); });
   ImGui::SameLine();
   if (ImGui::Button("Open")) attempt(app, [&] { app.load_path(file); });
-  note(fmt::format("ssphh view {} --path {} --export DIR draws the path as a sequence of pictures.",
-                   app.document.source, file));
+  draw_frames(app);
 }
 
 }  // namespace

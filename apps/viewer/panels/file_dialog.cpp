@@ -22,6 +22,8 @@ bool pressed(std::initializer_list<int> keys) {
 const char* title_of(FileDialog::For what) {
   using enum FileDialog::For;
   if (what == profile) return "Photometric profile of the lamp";
+  if (what == sky) return "Picture of the sky, equirectangular";
+  if (what == picture) return "Save the picture as .png, or its linear light as .exr";
   return what == open ? "Open" : what == scene ? "Save the scene as" : "Save the probes as";
 }
 

@@ -8,9 +8,9 @@
 #include <imgui.h>
 
 #include "app.h"
-#include "model/lamp_aim.h"
 #include "model/lamp_color.h"
 #include "model/lamp_profile.h"
+#include "model/lengths.h"
 #include "panels.h"
 #include "widgets.h"
 
@@ -80,7 +80,8 @@ void draw_numbers(App& app, std::size_t i) {
     const std::string format = endless                           ? "no limit"
                                : number.unit == std::string("°") ? "%.1f°"
                                                                  : fmt::format("%.4g {}", number.unit);
-    const float fastest = std::max(0.02f * std::abs(value), number.step);
+    const float least = number.step > 0 ? number.step : 0.1f * lengths_of(app.document.bounds).step;
+    const float fastest = std::max(0.02f * std::abs(value), least);
     ImGui::PushID(number.name);
     if (ImGui::DragFloat("##value", &value, fastest, number.low, number.high, format.c_str())) {
       attempt(app, [&] {
@@ -149,7 +150,6 @@ void draw_lamp(App& app) {
   const auto i = static_cast<std::size_t>(app.selection.index);
   const scene::Light light = app.document.scene->lights[i];
   const LightEdit now = app.document.edits().lights[i];
-  const mat4 world = app.document.lighting().lights[i].world;
   heading(light.name.c_str());
   note(type_names[static_cast<int>(light.type)]);
 
@@ -167,36 +167,7 @@ void draw_lamp(App& app) {
   tip("linear Rec.709");
   draw_color_names(app, i);
 
-  if (has_place(light.type)) {
-    row("position");
-    vec3 position = light_position(world);
-    if (ImGui::DragFloat3("##position", glm::value_ptr(position), 0.01f, 0, 0, "%.2f"))
-      app.edit("move " + light.name, [&](Edits& e) { e.lights[i].world = with_position(world, position); });
-    seal_after_edit(app);
-  }
-  if (has_direction(light.type, light.profile)) {
-    row("direction");
-    vec3 direction = light_direction(world);
-    if (ImGui::DragFloat3("##direction", glm::value_ptr(direction), 0.01f, -1, 1, "%.2f") &&
-        glm::length(direction) > 1e-3f)
-      app.edit("turn " + light.name,
-               [&](Edits& e) { e.lights[i].world = aimed(now.lamp, world, direction); });
-    seal_after_edit(app);
-    if (has_turn(now.lamp)) {
-      row("turn");
-      const float before = glm::degrees(turn_of(world));
-      float turn = before;
-      ImGui::DragFloat("##turn", &turn, 0.5f, -180, 180, "%.1f°", ImGuiSliderFlags_AlwaysClamp);
-      if (turn != before)
-        app.edit("turn " + light.name,
-                 [&](Edits& e) { e.lights[i].world = with_turn(world, glm::radians(turn)); });
-      seal_after_edit(app);
-      tip("about its aim, counter-clockwise seen from behind the lamp");
-    }
-    if (ImGui::Button(app.aim_mode ? "click a surface …" : "Aim (X)")) app.aim_mode = !app.aim_mode;
-    tip(has_place(light.type) ? "at what you click next; the amber handle in the picture aims, too"
-                              : "at the place of the sky that you click next, or straight on a surface");
-  }
+  draw_lamp_place(app, i);
   if (now.source >= 0 && now.world && ImGui::SmallButton("back to its own place")) {
     app.document.history.seal();
     app.edit("put back " + light.name, [&](Edits& e) { e.lights[i].world.reset(); });

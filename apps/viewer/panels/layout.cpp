@@ -17,14 +17,13 @@ ImTextureID texture_id(unsigned texture) {
   return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));  // ImGui's way with OpenGL
 }
 
-void draw_welcome(const App& app) {
+void draw_welcome(App& app) {
   const Rect2& r = app.viewport;
   const JobStatus status = app.job.status();
   const std::string loading =
       status.running ? fmt::format("{} … {:.0f} s", status.name, status.seconds) : std::string();
   const char* loads[] = {loading.c_str(), "", "", "Escape cancels"};
-  const char* drops[] = {"Drop a scene here", ".glb .gltf .obj .ssphh.json", "",
-                         "or begin with   ssphh view builtin:two-rooms"};
+  const char* drops[] = {"Drop a scene here", ".glb .gltf .obj .ssphh.json", "", "or"};
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   float y = r.y + 0.42f * r.height;
   for (const char* line : status.running ? loads : drops) {
@@ -32,6 +31,13 @@ void draw_welcome(const App& app) {
     list.AddText({r.x + 0.5f * (r.width - size.x), y}, IM_COL32(200, 200, 205, 255), line);
     y += 1.6f * size.y;
   }
+  if (status.running) return;
+  ImGui::SetNextWindowPos({r.x + 0.5f * r.width, y}, ImGuiCond_Always, {0.5f, 0});
+  ImGui::Begin("welcome", nullptr, fixed | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoBackground);
+  if (ImGui::Button("Open… (Ctrl+O)")) app.ask_for_file(FileDialog::For::open);
+  if (ImGui::Button("Look at two rooms")) attempt(app, [&] { app.request_open("builtin:two-rooms"); });
+  tip("A built-in scene; the menu File has others.");
+  ImGui::End();
 }
 
 /// A line over the picture's upper edge: what the user may want to do next. Returns its height with the

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 #include <glm/gtc/type_ptr.hpp>
@@ -60,6 +62,14 @@ void draw_groups(App& app) {
     seal_after_edit(app);
     ImGui::PopID();
   }
+  note("Factors on lamps, emissive surfaces and the environment: probes of a bake follow them as well.");
+}
+
+/// What surrounds the scene: turned, or another picture.
+void draw_surroundings(App& app) {
+  const std::optional<Surroundings> around = app.document.edits().surroundings;
+  heading("Surroundings");
+  if (around) note(std::filesystem::path(around->file).filename().string());
   if (app.document.scene->environment) {
     row("environment turned");
     float turn = app.document.edits().environment_rotation;
@@ -68,7 +78,11 @@ void draw_groups(App& app) {
     seal_after_edit(app);
     tip("about the vertical, beyond the scene's own rotation");
   }
-  note("Factors on lamps, emissive surfaces and the environment: probes of a bake follow them as well.");
+  if (ImGui::Button("Sky from a picture…")) app.ask_for_file(FileDialog::For::sky);
+  tip("An equirectangular .hdr or .exr; one that is dropped on the window does the same.");
+  if (!around) return;
+  beside("The scene's own");
+  if (ImGui::Button("The scene's own")) attempt(app, [&] { app.take_surroundings({}); });
 }
 
 }  // namespace
@@ -89,6 +103,7 @@ void draw_light_panel(App& app) {
   draw_lamp_list(app);
   if (app.selection.is(Kind::light)) draw_lamp(app);
   draw_sky(app);
+  draw_surroundings(app);
   draw_groups(app);
 }
 

@@ -60,6 +60,9 @@ void draw_file_menu(App& app) {
   tip("a small file that names the scene and holds lamps, cameras, SPHLs and what else was changed in it");
   if (ImGui::MenuItem("Save probes as…", nullptr, false, open && !app.light.empty()))
     app.ask_for_file(FileDialog::For::probes);
+  if (ImGui::MenuItem("Save picture as…", "Ctrl+F12", false, open))
+    app.ask_for_file(FileDialog::For::picture);
+  tip("What is seen as a .png, or its linear radiance as an .exr, without balls, outline and panels.");
   if (ImGui::MenuItem("Show the picture in tev", "Shift+F12", false, open && app.elsewhere))
     attempt(app, [&] { app.show_elsewhere(); });
   tip("as linear radiance, and the truth where one is traced, in the viewer of HDR pictures tev, which must "
@@ -80,6 +83,10 @@ void draw_edit_menu(App& app) {
   const bool lamp = app.selection.is(Kind::light);
   if (ImGui::MenuItem("Duplicate the lamp", "Ctrl+D", false, lamp)) app.duplicate_lamp();
   if (ImGui::MenuItem("Aim the lamp", "X", app.aim_mode, app.can_aim())) app.aim_mode = !app.aim_mode;
+  if (ImGui::MenuItem("Snap to steps", "Ctrl, dragging", app.settings.snap))
+    app.settings.snap = !app.settings.snap;
+  tip("Places and directions that are dragged in the picture go in steps, and freely with Ctrl. The steps "
+      "stand in the panel Light, below the lamp.");
   if (ImGui::MenuItem("Delete", "Del", false, lamp || app.selection.is(Kind::sphl))) app.delete_selection();
 }
 
@@ -108,6 +115,8 @@ void draw_view_menu(App& app) {
   ImGui::MenuItem("Panels", "Tab", &app.panels);
   if (ImGui::MenuItem("Values under the mouse", "I", app.inspecting)) app.toggle_inspector();
   ImGui::Separator();
+  if (ImGui::MenuItem("Walk", "V", app.walking)) app.toggle_walk();
+  tip("W A S D go on the ground at the eye's height, up to walls and along them; drags look around.");
   if (ImGui::MenuItem("From the front", "Num 1")) app.view_along({0, 0, -1});
   if (ImGui::MenuItem("From the right", "Num 3")) app.view_along({-1, 0, 0});
   if (ImGui::MenuItem("From above", "Num 7")) app.view_along({0, -1, 0});

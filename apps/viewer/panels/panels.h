@@ -2,6 +2,8 @@
 /// The user interface around the picture, one function per panel. Each reads the state and changes it through
 /// App's functions; none keeps state of its own but what is being typed.
 
+#include <cstddef>
+
 namespace ssphh::viewer {
 
 class App;
@@ -17,6 +19,8 @@ float draw_sidebar(App& app, float y, float height);
 void draw_light_panel(App& app);
 /// A part of it: the lamp that is selected.
 void draw_lamp(App& app);
+/// A part of that: where it stands and shines, and in which steps it is dragged.
+void draw_lamp_place(App& app, std::size_t i);
 /// Entries of a menu: a lamp of each kind to add.
 void draw_lamp_kinds(App& app);
 /// A part of it, of scenes with a computed sky.

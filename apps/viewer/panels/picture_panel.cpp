@@ -56,12 +56,9 @@ void draw_picture_panel(App& app) {
   setting_slider(app, "probe light at", "indirect-scale", 1, 8, "1 of %.0f pixels");
   draw_truth(app);
   heading("Files");
-  static char file[256] = "picture.png";
-  file_row("screenshot", file);
-  if (wide_button("Write picture")) attempt(app, [&] { app.screenshot(file, false); });
-  static char scene_file[256] = "scene.glb";
-  file_row("scene", scene_file);
-  if (wide_button("Save scene")) attempt(app, [&] { app.save_as(scene_file); });
+  if (wide_button("Save picture as…")) app.ask_for_file(FileDialog::For::picture);
+  tip("What is seen as a .png, or its linear radiance as an .exr.");
+  if (wide_button("Save scene as…")) app.ask_for_file(FileDialog::For::scene);
 }
 
 }  // namespace ssphh::viewer

@@ -57,6 +57,19 @@ std::optional<Answer> ask_to_reload(const App& app) {
   return answer;
 }
 
+std::optional<Answer> ask_to_take(const App& app) {
+  ImGui::PushTextWrapPos(text_width(app));
+  ImGui::Text("%s %s. Its light may not suit what is open.", app.question.source.c_str(),
+              app.question.problem.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::Spacing();
+  std::optional<Answer> answer;
+  if (choice("Take it anyway (T)", {GLFW_KEY_T, GLFW_KEY_ENTER, GLFW_KEY_KP_ENTER})) answer = Answer::discard;
+  beside("Leave it (Escape)", text_width(app));
+  if (choice("Leave it (Escape)", {GLFW_KEY_ESCAPE})) answer = Answer::stay;
+  return answer;
+}
+
 std::optional<Answer> ask_to_lose(const App& app, const std::string& lost) {
   const char* then = app.question.then == Question::Then::close ? "close" : "open";
   ImGui::PushTextWrapPos(text_width(app));
@@ -87,7 +100,9 @@ void draw_question(App& app) {
   const std::string lost = app.what_is_lost();
   const bool recovers = app.question.then == Question::Then::recover;
   const bool reloads = app.question.then == Question::Then::reload;
-  const bool asks = recovers || reloads || (app.question.then != Question::Then::nothing && !lost.empty());
+  const bool takes = app.question.then == Question::Then::take_probes;
+  const bool asks =
+      recovers || reloads || takes || (app.question.then != Question::Then::nothing && !lost.empty());
   if (asks && !ImGui::IsPopupOpen(popup)) ImGui::OpenPopup(popup);
   const Rect2& r = app.viewport;
   ImGui::SetNextWindowPos({r.x + 0.5f * r.width, r.y + 0.5f * r.height}, ImGuiCond_Always, {0.5f, 0.5f});
@@ -103,6 +118,7 @@ void draw_question(App& app) {
   }
   const std::optional<Answer> answer = recovers  ? ask_to_recover(app, app.question.kept)
                                        : reloads ? ask_to_reload(app)
+                                       : takes   ? ask_to_take(app)
                                                  : ask_to_lose(app, lost);
   if (answer) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();

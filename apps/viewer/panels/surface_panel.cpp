@@ -46,7 +46,8 @@ void draw_material(App& app, std::size_t i) {
   if (!material.emissive()) return;
   row("emission");
   vec3 emission = material.emission;
-  if (ImGui::DragFloat3("##emission", glm::value_ptr(emission), 0.05f, 0, 1e6f, "%.2f"))
+  if (ImGui::DragFloat3("##emission", glm::value_ptr(emission),
+                        std::max(0.02f * max_component(emission), 0.01f), 0, 1e6f, "%.4g"))
     edit(app, i, [&](scene::Material& m) { m.emission = glm::max(emission, vec3(0)); });
   seal_after_edit(app);
   tip("radiance, W/(sr m²); an emitter stays one: at least a little of it is kept");

@@ -14,21 +14,26 @@ using testing::ElementsAre;
 
 TEST_F(Menus, FilesAreWrittenAndRead) {
   open("Picture");
-  click_text("Save scene");
-  EXPECT_TRUE(std::filesystem::exists("scene.glb"));
+  click_text("Save scene as?");
+  ASSERT_TRUE(app().dialog);
+  app().choose_file();
+  EXPECT_TRUE(std::filesystem::exists("stage-01.glb"));
   take_probes();
   open("Probes");
   click_text("Save");
   EXPECT_EQ(probes::read_probe_file("probes.sphl").probes.size(), 6u);
   click_text("Open");
-  EXPECT_TRUE(app().message_is_error) << "baked in no scene";
+  EXPECT_EQ(app().question.then, Question::Then::take_probes) << "baked in no scene";
+  app().answer(Answer::stay);
+  rest();
   app().times.add("frame", 3);
   open("Times");
   click_text("Save .csv or .json");
   EXPECT_TRUE(std::filesystem::exists("times.csv"));
   click_text("Begin anew");
   EXPECT_TRUE(app().times.stages().empty());
-  EXPECT_THAT(app().report.written, ElementsAre("scene.glb", "probes.sphl", "times.csv"));
+  EXPECT_THAT(app().report.written,
+              ElementsAre(testing::EndsWith("/stage-01.glb"), "probes.sphl", "times.csv"));
 }
 
 TEST_F(Menus, TheBarOfTimePlaysAndShowsWork) {

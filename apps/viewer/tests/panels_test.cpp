@@ -115,7 +115,7 @@ TEST_F(Panels, FieldsFollowTheMouseAtTheirSpeed) {
   app().selection = {Kind::material, 2};
   open("Surfaces");
   expect_pulled(
-      "emission", [&] { return edits().materials[2].emission.x; }, 0.05f, 0, 1e6f);
+      "emission", [&] { return edits().materials[2].emission.x; }, 0.06f, 0, 1e6f);
   open("Camera");
   expect_pulled(
       "eye", [&] { return app().view.eye.x; }, 0.02f, 0, 0);

@@ -46,9 +46,10 @@ TEST(PictureSettings, EachDebugViewIsTheRenderersView) {
 }
 
 TEST(PictureSettings, ThoseOfTheScreenAndTheTruthLeaveThePictureAsItIs) {
-  const std::set<std::string> others = {
-      "scale", "show", "wipe",  "block",     "against",  "truth-depth", "truth-spp", "graph",
-      "names", "play", "speed", "histogram", "waveform", "false-color", "draw",      "quality"};
+  const std::set<std::string> others = {"scale",       "show",      "wipe",      "block",       "against",
+                                        "truth-depth", "truth-spp", "graph",     "names",       "play",
+                                        "speed",       "histogram", "waveform",  "false-color", "draw",
+                                        "quality",     "snap",      "snap-step", "snap-angle"};
   for (const SettingName& setting : setting_names()) {
     Settings changed;
     const std::string now = setting.get(changed);
@@ -197,7 +198,10 @@ class PictureTest : public GlStage {
     const auto live = shot("light lamp intensity 3");
     app().save_probes("live.sphl");
     EXPECT_EQ(probes::read_probe_file("live.sphl").probes.size(), 6u);
-    EXPECT_THROW(app().use_probes("live.sphl"), Error) << "of another lamp than the scene's";
+    app().use_probes("live.sphl");
+    EXPECT_EQ(app().question.then, Question::Then::take_probes) << "of another lamp than the scene's";
+    app().answer(Answer::stay);
+    EXPECT_TRUE(app().light.live());
     options_.force = true;
     play("probes live.sphl");
     EXPECT_EQ(app().light.origin(), "live.sphl");

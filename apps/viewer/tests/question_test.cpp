@@ -154,5 +154,28 @@ TEST_F(Asked, NobodyWhereNobodyIs) {
   EXPECT_TRUE(closes());
 }
 
+TEST_F(Asked, ProbesOfAnotherSceneAreTakenOnlyOnDemand) {
+  take_probes();
+  probes::ProbeSet set = app().light.set();
+  set.generator.scene = "elsewhere.glb";
+  set.generator.scene_hash = {7, 7};
+  probes::write_probe_file(set, "other.sphl");
+  app().light.clear();
+  app().request_open("other.sphl");
+  EXPECT_EQ(app().question.then, Then::take_probes);
+  EXPECT_TRUE(app().light.empty());
+  EXPECT_THAT(texts(), HasSubstr("Take it anyway (T)"));
+  EXPECT_THAT(texts(), HasSubstr("elsewhere.glb"));
+  press({GLFW_KEY_ESCAPE});
+  EXPECT_TRUE(app().light.empty());
+  app().request_open("other.sphl");
+  rest();
+  press({GLFW_KEY_T});
+  EXPECT_EQ(app().light.origin(), "other.sphl");
+  // Nobody is there to answer
+  options_.script = "x";
+  EXPECT_THROW(app().request_open("other.sphl"), Error);
+}
+
 }  // namespace
 }  // namespace ssphh::viewer

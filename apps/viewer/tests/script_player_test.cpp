@@ -217,8 +217,9 @@ TEST_F(Script_, SaysWhatItDoesNotUnderstand) {
   EXPECT_THAT(error("light lamb on"), HasSubstr("there is no \"lamb\" (there are: lamp)"));
   EXPECT_THAT(error("select sphl x"), HasSubstr("there are: A west, A east, doorway"));
   EXPECT_THAT(error("select door x"), HasSubstr("\"door\" is none of: light, sphl, material"));
-  EXPECT_THAT(error("light lamp dim"), HasSubstr("\"dim\" is none of: on, off, delete, duplicate, aim, "
-                                                 "color, profile, turn, position, intensity, range"));
+  EXPECT_THAT(error("light lamp dim"),
+              HasSubstr("\"dim\" is none of: on, off, delete, duplicate, aim, "
+                        "color, profile, turn, pan-tilt, position, intensity, range"));
   EXPECT_THAT(error("group x 1"), HasSubstr("there is no \"x\""));
   EXPECT_THAT(error("material x 1 1 1"), HasSubstr("there is no \"x\""));
   EXPECT_THAT(error("key ctrl+what"), HasSubstr("there is no key \"ctrl+what\""));

@@ -60,7 +60,7 @@ TEST(Settings, StartAtTheirDefaults) {
       {"balls", "off"},       {"ball", "radiance"},     {"ball-size", "0"},    {"lobes", "off"},
       {"graph", "off"},       {"names", "off"},         {"play", "off"},       {"speed", "0.5"},
       {"antialias", "on"},    {"histogram", "off"},     {"waveform", "off"},   {"false-color", "off"},
-      {"draw", "none"}};
+      {"draw", "none"},       {"snap", "off"},          {"snap-step", "0"},    {"snap-angle", "15"}};
   std::map<std::string, std::string> got;
   for (const SettingName& setting : setting_names()) got[setting.name] = setting.get(Settings{});
   EXPECT_EQ(got, wanted);
@@ -81,6 +81,8 @@ TEST(Settings, NumbersHaveLimits) {
                           {"neighbors", "-2", "-1", "65536", "65537"},
                           {"threshold", "-0.01", "0", "1", "1.01"},
                           {"ball-size", "-0.01", "0", "1000", "1000.5"},
+                          {"snap-step", "-0.01", "0", "1000000", "1000001"},
+                          {"snap-angle", "0.09", "0.1", "180", "180.5"},
                           {"speed", "-100.5", "-100", "100", "100.5"}}) {
     Settings s;
     for (const char* good : {l.low, l.high}) {
@@ -131,6 +133,9 @@ TEST(Settings, GoWhereTheirNameSays) {
       {"lobes", "on", [](Settings& s) { s.lobes = true; }},
       {"graph", "on", [](Settings& s) { s.graph = true; }},
       {"names", "on", [](Settings& s) { s.names = true; }},
+      {"snap", "on", [](Settings& s) { s.snap = true; }},
+      {"snap-step", "0.25", [](Settings& s) { s.snap_step = 0.25f; }},
+      {"snap-angle", "5", [](Settings& s) { s.snap_angle = 5; }},
       {"play", "on", [](Settings& s) { s.play = true; }},
       {"speed", "-2", [](Settings& s) { s.speed = -2; }}};
   EXPECT_EQ(std::size(cases), setting_names().size());
