@@ -165,7 +165,7 @@ TEST_F(View, AnExrHasTheLightOfRender) {
     difference += std::abs(a - b), all += b;
   }
   EXPECT_GT(all, 0);
-  EXPECT_LT(difference, 0.01 * all) << "the mean of 16 frames, whatever the exposure";
+  EXPECT_LT(difference, 0.03 * all) << "samples at edges stand elsewhere in their pixels";
 }
 
 TEST_F(View, FramesOfAPathGlideToWhatSuitsThemAlike) {

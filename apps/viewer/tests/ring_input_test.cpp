@@ -162,9 +162,9 @@ TEST_F(RingInput, TheAmberHandleAimsInSteps) {
 TEST_F(RingInput, TheAngleAndThePlaceAreShownBesideTheMouse) {
   app().turn_selected({0.5f, -0.5f, -1});
   turn(1, 0.35f, true, true);
-  EXPECT_TRUE(shows("+15.0\xb0"));
+  EXPECT_TRUE(shows("+15.0<b0>"));
   rest();
-  EXPECT_FALSE(shows("+15.0\xb0"));
+  EXPECT_FALSE(shows("+15.0<b0>"));
 }
 
 TEST_F(RingInput, PanTiltAndStepsAreNumbersOfThePanel) {
@@ -177,7 +177,7 @@ TEST_F(RingInput, PanTiltAndStepsAreNumbersOfThePanel) {
   EXPECT_LT(pan_tilt_of(direction()).tilt, -5);
   click_widget("snap");
   EXPECT_TRUE(app().settings.snap);
-  pull("steps [m], [\xb0]", 20, 1);
+  pull("steps [m], [<b0>]", 20, 1);
   EXPECT_GT(app().settings.snap_angle, 15);
 }
 
