@@ -140,5 +140,31 @@ TEST_F(TexturedPixels, OfAMaskAndOfWhatIsLitThroughItsHolesAreTheTracers) {
   expect_traced(std::move(s), nullptr, 0.05f, 0.6);
 }
 
+TEST_F(TexturedPixels, OfLeavesFromAfarHaveNothingOfTheWhiteAroundThem) {
+  // Stripes of green, cut out of white that nobody sees, finer than pixels.
+  scene::Scene s = textured_sheet();
+  scene::Texture& leaf = s.textures.emplace_back();
+  leaf.name = "leaf", leaf.width = leaf.height = 32;
+  for (int i = 0; i < 32 * 32; ++i) {
+    const std::array<int, 4> texel = i % 4 == 0 ? std::array{255, 255, 255, 0} : std::array{20, 160, 30, 255};
+    for (const int v : texel) leaf.rgba.push_back(static_cast<std::uint8_t>(v));
+  }
+  scene::Material& m = s.materials[0];
+  m.alpha_mode = scene::AlphaMode::mask, m.alpha_cutoff = 0.5f;
+  m.base_color_texture = {.texture = 0, .scale = vec2(9)};
+  realtime::Renderer renderer(gl(), s);
+  const image::Image picture = drawn(renderer, s, texture_size, {});
+  int leaves = 0;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const vec3 c = picture.rgb(x, y);
+      if (c.g < 0.01f) continue;
+      ++leaves;
+      EXPECT_LT(std::max(c.r, c.b), 0.1f * c.g) << x << ' ' << y;
+    }
+  }
+  EXPECT_GT(leaves, texture_size.width * texture_size.height / 2);
+}
+
 }  // namespace
 }  // namespace ssphh::test

@@ -63,6 +63,7 @@ class GpuScene {
 
  private:
   enum class GlassKind { none, some, everywhere };
+  enum class TextureKind { numbers, color, color_and_coverage };
   /// Of what each instance emits; −1: nothing.
   static std::vector<int> groups_of(const scene::Scene& scene);
   static GlassKind glass_kind(const scene::Material& material);
@@ -71,7 +72,7 @@ class GpuScene {
     int texture, sampler;  ///< −1: white
   };
   void add_textures(const scene::Scene& scene, FrameCounters& counters);
-  int texture_for(const scene::Scene& scene, int texture, bool srgb, FrameCounters& counters);
+  int texture_for(const scene::Scene& scene, int texture, TextureKind kind, FrameCounters& counters);
   int sampler_for(const scene::TextureUse& use);
   void classify(const std::vector<scene::Material>& materials);
   void bind_material(int material) const;
@@ -83,7 +84,7 @@ class GpuScene {
   std::vector<int> classes_;                ///< of each material
   std::vector<GlassKind> glass_;            ///< of each material
   std::vector<std::array<Slot, 5>> slots_;  ///< of each material
-  std::map<std::pair<int, bool>, int> texture_index_;
+  std::map<std::pair<int, TextureKind>, int> texture_index_;
   std::map<int, int> sampler_index_;
   std::vector<gl::Texture> textures_;
   std::vector<gl::Sampler> samplers_;

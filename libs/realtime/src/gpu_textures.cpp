@@ -1,3 +1,4 @@
+#include "covered_colors.h"
 #include "gpu_scene.h"
 
 namespace ssphh::realtime {
@@ -16,32 +17,38 @@ void GpuScene::add_textures(const scene::Scene& scene, FrameCounters& counters) 
   const std::array<std::byte, 4> ones{std::byte{255}, std::byte{255}, std::byte{255}, std::byte{255}};
   white_.upload(ones);
   const auto slots_of = [&](const scene::Material& m) {
-    const auto slot = [&](unsigned unit, const scene::TextureUse& use, bool srgb) {
+    const auto slot = [&](unsigned unit, const scene::TextureUse& use, TextureKind kind) {
       if (use.texture < 0) return Slot{unit, -1, -1};
-      return Slot{unit, texture_for(scene, use.texture, srgb, counters), sampler_for(use)};
+      return Slot{unit, texture_for(scene, use.texture, kind, counters), sampler_for(use)};
     };
-    return std::array<Slot, 5>{slot(unit::base_texture, m.base_color_texture, true),
-                               slot(unit::rough_texture, m.metallic_roughness_texture, false),
-                               slot(unit::emission_texture, m.emission_texture, true),
-                               slot(unit::normal_texture, m.normal_texture, false),
-                               slot(unit::transmission_texture, m.transmission_texture, false)};
+    using enum TextureKind;
+    const bool covers = m.alpha_mode != scene::AlphaMode::opaque;
+    return std::array<Slot, 5>{
+        slot(unit::base_texture, m.base_color_texture, covers ? color_and_coverage : color),
+        slot(unit::rough_texture, m.metallic_roughness_texture, numbers),
+        slot(unit::emission_texture, m.emission_texture, color),
+        slot(unit::normal_texture, m.normal_texture, numbers),
+        slot(unit::transmission_texture, m.transmission_texture, numbers)};
   };
   for (const scene::Material& m : scene.materials) slots_.push_back(slots_of(m));
   slots_.push_back(slots_of({}));
 }
 
-int GpuScene::texture_for(const scene::Scene& scene, int texture, bool srgb, FrameCounters& counters) {
+int GpuScene::texture_for(const scene::Scene& scene, int texture, TextureKind kind, FrameCounters& counters) {
   const auto [place, is_new] =
-      texture_index_.try_emplace({texture, srgb}, static_cast<int>(textures_.size()));
+      texture_index_.try_emplace({texture, kind}, static_cast<int>(textures_.size()));
   if (!is_new) return place->second;
   const scene::Texture& source = scene.textures[texture];
   if (source.width <= 0 || source.height <= 0) {
     place->second = -1;
     return -1;
   }
-  gl::Texture& t = textures_.emplace_back(srgb ? gl::Format::srgb8_alpha8 : gl::Format::rgba8, source.width,
-                                          source.height, 0, true);
-  t.upload(std::as_bytes(std::span(source.rgba)));
+  gl::Texture& t =
+      textures_.emplace_back(kind == TextureKind::numbers ? gl::Format::rgba8 : gl::Format::srgb8_alpha8,
+                             source.width, source.height, 0, true);
+  const std::vector<std::uint8_t> covered =
+      kind == TextureKind::color_and_coverage ? covered_colors(source) : std::vector<std::uint8_t>();
+  t.upload(std::as_bytes(std::span(covered.empty() ? source.rgba : covered)));
   t.generate_mipmaps();
   counters.bytes_uploaded += source.rgba.size();
   bytes_ += source.rgba.size() * 4 / 3;
