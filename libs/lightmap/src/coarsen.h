@@ -2,6 +2,7 @@
 /// Wider texels where surfaces are far from everything.
 
 #include <optional>
+#include <span>
 
 #include <ssphh/lightmap/chart.h>
 

@@ -101,12 +101,13 @@ TEST(CutMesh, CutsBothSidesOfASeamAlike) {
   mesh.positions.insert(mesh.positions.end(), {mesh.positions[0], mesh.positions[2]});
   mesh.normals.clear(), mesh.uvs[0].clear();
   mesh.triangles[1] = {4, 5, 3};
-  const auto [after, whole] = cut_mesh(
-      mesh, mat4(1),
-      [](const std::array<vec3, 3>& t, std::uint32_t) {
-        return t[0].x + t[1].x + t[2].x < 0 && glm::distance(t[0], t[1]) > 1.9f;
-      },
-      100);
+  const scene::Mesh after = cut_mesh(
+                                mesh, mat4(1),
+                                [](const std::array<vec3, 3>& t, std::uint32_t) {
+                                  return t[0].x + t[1].x + t[2].x < 0 && glm::distance(t[0], t[1]) > 1.9f;
+                                },
+                                100)
+                                .mesh;
   const auto touching = [&](const vec3& at) {
     return std::ranges::count_if(after.triangles, [&](const uvec3& t) {
       return after.positions[t.x] == at || after.positions[t.y] == at || after.positions[t.z] == at;
