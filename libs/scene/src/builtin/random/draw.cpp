@@ -51,6 +51,11 @@ float Draw::scaled(float least, float most) {
   return least * std::pow(most / least, random_.uniform());
 }
 
+vec3 Draw::within(const vec3& least, const vec3& most) {
+  const float z = between(least.z, most.z), y = between(least.y, most.y), x = between(least.x, most.x);
+  return {x, y, z};
+}
+
 vec3 Draw::albedo() {
   const float level = between(0.15f, 0.8f);
   switch (pick(3)) {
@@ -72,6 +77,11 @@ vec3 Draw::lamp_color() {
   return {1, 1 - 0.35f * warmth, 1 - 0.7f * warmth};
 }
 
+int RandomScene::checkered(float repeats) {
+  const vec3 odd = draw.albedo();
+  return textured(draw.albedo(), odd, repeats);
+}
+
 int RandomScene::textured(const vec3& even, const vec3& odd, float repeats) {
   const int material = b.matte("checker", vec3(1));
   b.scene().textures.push_back(checker(even, odd));
@@ -83,13 +93,18 @@ int RandomScene::textured(const vec3& even, const vec3& odd, float repeats) {
 
 int RandomScene::material() {
   switch (draw.pick(8)) {
-    case 0:
-      return b.glossy("glossy", draw.albedo(), draw.between(0.2f, 0.8f));
-    case 1:
-      return b.metal("metal", vec3(0.6f) + 0.35f * draw.albedo(), draw.between(0.2f, 0.6f));
+    case 0: {
+      const float roughness = draw.between(0.2f, 0.8f);
+      return b.glossy("glossy", draw.albedo(), roughness);
+    }
+    case 1: {
+      const float roughness = draw.between(0.2f, 0.6f);
+      return b.metal("metal", vec3(0.6f) + 0.35f * draw.albedo(), roughness);
+    }
     case 2: {
       const vec3 even = draw.albedo();
-      return textured(even, draw.albedo(), draw.scaled(1, 8));
+      const float repeats = draw.scaled(1, 8);
+      return textured(even, draw.albedo(), repeats);
     }
     default:
       return matte();
@@ -140,8 +155,7 @@ void add_daylight(RandomScene& s, Daylight daylight) {
 void add_lamp(RandomScene& s, const vec3& least, const vec3& most, float area) {
   Draw& draw = s.draw;
   const std::string name = fmt::format("lamp {}", ++s.lamps);
-  const vec3 place(draw.between(least.x, most.x), draw.between(least.y, most.y),
-                   draw.between(least.z, most.z));
+  const vec3 place = draw.within(least, most);
   const vec3 color = draw.lamp_color();
   const float power = area * draw.scaled(3, 30);  // radiant watts: 3 to 30 W/m²
   switch (draw.pick(5)) {
@@ -149,7 +163,8 @@ void add_lamp(RandomScene& s, const vec3& least, const vec3& most, float area) {
       s.b.point_light(name, place, color, power / (4 * pi));
       return;
     case 1: {
-      const vec3 target(place.x + draw.between(-0.5f, 0.5f), 0, place.z + draw.between(-0.5f, 0.5f));
+      const float aside_z = draw.between(-0.5f, 0.5f), aside_x = draw.between(-0.5f, 0.5f);
+      const vec3 target(place.x + aside_x, 0, place.z + aside_z);
       const float outer = draw.between(25, 75);
       const float solid_angle = 2 * pi * (1 - std::cos(glm::radians(outer)));
       s.b.spot_light(name, place, target, color, power / solid_angle, draw.between(0, outer - 2), outer);

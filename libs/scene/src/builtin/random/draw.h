@@ -9,6 +9,7 @@
 
 namespace ssphh::scene {
 
+/// Arguments of one call are evaluated in an order that compilers choose: no call has two that draw.
 class Draw {
  public:
   /// Numbers of another `stream` change none of the usual ones.
@@ -17,6 +18,8 @@ class Draw {
   float between(float least, float most) { return least + (most - least) * random_.uniform(); }
   /// Uniform in the logarithm.
   float scaled(float least, float most);
+  /// A point of the box.
+  vec3 within(const vec3& least, const vec3& most);
   /// 0 … count − 1.
   int pick(int count) { return static_cast<int>(random_.uniform() * static_cast<float>(count)); }
   bool chance(float probability) { return random_.uniform() < probability; }
@@ -42,7 +45,9 @@ struct RandomScene {
   int matte() { return b.matte("matte", draw.albedo()); }
   /// Matte, glossy, metal or with a texture.
   int material();
-  int textured(const vec3& a, const vec3& b, float repeats);
+  int textured(const vec3& even, const vec3& odd, float repeats);
+  /// Textured, of colours that are drawn.
+  int checkered(float repeats);
   /// As material(), or solid glass.
   int material_or_glass();
   /// Of a window: clear or tinted glass, or −1, none.

@@ -47,7 +47,7 @@ void add_flat(RandomScene& s) {
             s.matte());
   } else {
     s.b.add("floor", make_box({0, -0.2f, 0}, {wide, 0, deep}),
-            draw.chance(0.5f) ? s.textured(draw.albedo(), draw.albedo(), wide) : s.matte());
+            draw.chance(0.5f) ? s.checkered(wide) : s.matte());
   }
   s.b.add("ceiling", make_box({0, height, 0}, {wide, height + 0.2f, deep}), outer);
 
@@ -57,9 +57,10 @@ void add_flat(RandomScene& s) {
   };
   const auto window = [&](float from, float to) {
     std::vector<Opening> openings;
-    if (day && draw.chance(0.7f))
-      openings.push_back(
-          somewhere(draw, from, to, draw.between(0.8f, 2.2f), draw.between(0, 1.1f), 2.1f, pane));
+    if (day && draw.chance(0.7f)) {
+      const float sill = draw.between(0, 1.1f), width = draw.between(0.8f, 2.2f);
+      openings.push_back(somewhere(draw, from, to, width, sill, 2.1f, pane));
+    }
     return openings;
   };
   for (int row = 0; row <= rows; ++row) {
@@ -109,7 +110,8 @@ void add_flat(RandomScene& s) {
       }
       if (room < 4) {
         const vec3 eye(middle.x + 0.15f, 1.5f, middle.z + 0.15f);
-        const vec3 target(draw.chance(0.5f) ? least.x : most.x, 0.9f, draw.chance(0.5f) ? least.z : most.z);
+        const float target_z = draw.chance(0.5f) ? least.z : most.z;
+        const vec3 target(draw.chance(0.5f) ? least.x : most.x, 0.9f, target_z);
         s.b.camera(fmt::format("room-{}", room + 1), eye, target, 65);
       }
     }

@@ -12,7 +12,7 @@ void add_hall(RandomScene& s) {
   const bool day = s.daylight != Daylight::none;
   const int walls = s.matte(), pane = day ? s.pane() : -1;
   s.b.add("floor", make_box({-half_x - thick, -0.3f, -half_z - thick}, {half_x + thick, 0, half_z + thick}),
-          s.textured(draw.albedo(), draw.albedo(), half_x));
+          s.checkered(half_x));
   s.b.add(
       "ceiling",
       make_box({-half_x - thick, height, -half_z - thick}, {half_x + thick, height + 0.3f, half_z + thick}),

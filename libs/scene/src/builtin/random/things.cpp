@@ -11,7 +11,8 @@ void add_thing(RandomScene& s, const vec3& foot, float size, float height) {
     case 0: {
       const float top = std::min(height, draw.between(0.4f, 0.9f) * size);
       add_table(b, foot - vec3(r, 0, r), {size, size}, top, s.material());
-      add_teapot(b, foot + vec3(0, top, 0), std::min(2 * r, draw.between(0.6f, 1.4f)), s.material());
+      const int glaze = s.material();
+      add_teapot(b, foot + vec3(0, top, 0), std::min(2 * r, draw.between(0.6f, 1.4f)), glaze);
       return;
     }
     case 1: {
@@ -46,7 +47,8 @@ void add_thing(RandomScene& s, const vec3& foot, float size, float height) {
       return;
     case 7: {
       const float tall = draw.between(0.4f, 0.95f) * height;
-      add_shelf(b, foot - vec3(r, 0, 0.3f * r), {size, tall, 0.6f * r}, 3 + draw.pick(3), s.material());
+      const int wood = s.material();
+      add_shelf(b, foot - vec3(r, 0, 0.3f * r), {size, tall, 0.6f * r}, 3 + draw.pick(3), wood);
       return;
     }
     case 8: {
@@ -58,9 +60,10 @@ void add_thing(RandomScene& s, const vec3& foot, float size, float height) {
       break;
   }
   const float tall = draw.between(0.2f, 0.9f) * height;
-  const vec3 half(draw.between(0.4f, 0.7f) * r, 0, draw.between(0.4f, 0.7f) * r);
-  b.add("block", make_box(-half, half + vec3(0, tall, 0)), s.material(),
-        at(foot, draw.between(0, 90), {0, 1, 0}));
+  const float half_z = draw.between(0.4f, 0.7f) * r, half_x = draw.between(0.4f, 0.7f) * r;
+  const vec3 half(half_x, 0, half_z);
+  const float turn = draw.between(0, 90);
+  b.add("block", make_box(-half, half + vec3(0, tall, 0)), s.material(), at(foot, turn, {0, 1, 0}));
 }
 
 }  // namespace ssphh::scene
