@@ -123,7 +123,8 @@ TEST_F(Choices, OfTrianglesGoByTheLightTheySend) {
   EXPECT_FLOAT_EQ(density(0), 0.5f);
 }
 
-TEST_F(Choices, OfMoreThanSixteenLightsGoByTheirPower) {
+// Seventeen are divided at x = 8.
+TEST_F(Choices, OfMoreThanSixteenLightsGoByBoxesOfThemFirst) {
   for (int i = 0; i < 16; ++i)
     add_light(scene, LightType::point, {static_cast<float>(i), 0, 1}).intensity = 1 + static_cast<float>(i);
   const float near = probability(make_lights(scene), vec3(0), 0);
@@ -131,7 +132,36 @@ TEST_F(Choices, OfMoreThanSixteenLightsGoByTheirPower) {
   for (int i = 0; i < 16; ++i) all += (1.0 + i) / (1.0 + i * i);
   EXPECT_NEAR(static_cast<double>(near), chance(1, all, 16), 1e-5);
   add_light(scene, LightType::point, {16, 0, 1}).intensity = 17;
-  EXPECT_NEAR(probability(make_lights(scene), vec3(0), 0), 1.0f / (17 * 9), 1e-6f);
+  const double left = 36 / (3.5 * 3.5 + 1), right = 117 / (12.0 * 12 + 1);
+  double beside = 0;
+  for (int i = 0; i < 8; ++i) beside += (1.0 + i) / (1.0 + i * i);
+  EXPECT_NEAR(static_cast<double>(probability(make_lights(scene), vec3(0), 0)),
+              (0.05 + 0.9 * left / (left + right)) * chance(1, beside, 8), 1e-5);
+}
+
+// By power alone the estimate's variance would be 28 times its square.
+TEST_F(Choices, UnderARowOfLampsGoToTheNearOnes) {
+  const int lamps = 29;
+  for (int i = 0; i < lamps; ++i)
+    add_light(scene, LightType::point, {0, 4, 30 * static_cast<float>(i)}).color = vec3(1, 0.6f, 0.2f);
+  const LightSet lights = make_lights(scene);
+  for (const float z : {0.0f, 60.0f, 419.0f, 840.0f}) {
+    const vec3 from(1, 0, z);
+    vec3 sum(0), squares(0), exact(0);
+    const int count = 4096;
+    for (int i = 0; i < count; ++i) {
+      const auto s =
+          lights.sample(from, (static_cast<float>(i) + 0.5f) / static_cast<float>(count), vec2(0.5f));
+      ASSERT_TRUE(s);
+      const vec3 estimate = s->radiance / s->pdf / static_cast<float>(count);
+      sum += estimate, squares += estimate * estimate * static_cast<float>(count);
+    }
+    for (int i = 0; i < lamps; ++i) exact += lights.sample_emitter(i, from, vec2(0.5f))->radiance;
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(sum[c], exact[c], 0.01f * exact[c]) << z;
+      EXPECT_LT(squares[c] / (exact[c] * exact[c]) - 1, 1.5f) << z;  // the most where boxes meet
+    }
+  }
 }
 
 // Radius 2 of the scene's bounds; a lamp of power 1 gives it 1/4.

@@ -12,7 +12,7 @@ LightSet::LightSet(LightSet&&) noexcept = default;
 LightSet& LightSet::operator=(LightSet&&) noexcept = default;
 
 bool LightSet::empty() const {
-  return data_->by_power.empty() && data_->distant.empty();
+  return data_->tree.empty() && data_->distant.empty();
 }
 const std::vector<std::string>& LightSet::groups() const {
   return data_->groups;
@@ -25,7 +25,7 @@ std::optional<LightSample> LightSet::sample(const vec3& position, float u_choice
     if (s) s->pdf *= d.distant_probability;
     return s;
   }
-  if (d.by_power.empty()) return std::nullopt;
+  if (d.tree.empty()) return std::nullopt;
   const float any_local = 1 - d.distant_probability;
   const auto choice = d.choose_local(position, (u_choice - d.distant_probability) / any_local);
   if (!(choice.probability > 0)) return std::nullopt;
@@ -50,18 +50,12 @@ Emitter LightSet::emitter(int index) const {
   check_emitter(index, *this);
   const Data& d = *data_;
   auto i = static_cast<std::size_t>(index);
-  if (i < d.points.size()) {
-    const PointLight& light = d.points[i];
-    return {EmitterKind::point, light.group, {light.position - light.radius, light.position + light.radius}};
-  }
+  if (i >= d.local_count()) return d.distant.emitter(i - d.local_count());
+  const scene::Bounds extent = d.bounds(i);
+  if (i < d.points.size()) return {EmitterKind::point, d.points[i].group, extent};
   i -= d.points.size();
-  if (i < d.spheres.size()) {
-    const SphereLight& light = d.spheres[i];
-    return {EmitterKind::sphere, light.group, {light.center - light.radius, light.center + light.radius}};
-  }
-  i -= d.spheres.size();
-  if (i < d.meshes.size()) return {EmitterKind::mesh, d.meshes[i]->group(), d.meshes[i]->bounds()};
-  return d.distant.emitter(i - d.meshes.size());
+  if (i < d.spheres.size()) return {EmitterKind::sphere, d.spheres[i].group, extent};
+  return {EmitterKind::mesh, d.meshes[i - d.spheres.size()]->group(), extent};
 }
 
 std::optional<LightSample> LightSet::sample_emitter(int index, const vec3& position, const vec2& u) const {

@@ -1,19 +1,19 @@
 #pragma once
 /// What a LightSet holds, and how it chooses one of its lights.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include <ssphh/shading/lights.h>
 
 #include "distant_lights.h"
+#include "light_tree.h"
 #include "mesh_light.h"
 #include "punctual_lights.h"
 
 namespace ssphh::shading {
-
-/// Up to so many local lights are weighed anew at each point; more are chosen by their power.
-inline constexpr std::size_t max_weighed = 16;
 
 /// Probability to choose any light in reach, however weak; the rest goes by importance. A strong light may be
 /// hidden.
@@ -33,9 +33,9 @@ struct LightSet::Data {
   std::vector<int> instance_group, instance_mesh_light;
   std::vector<std::shared_ptr<const MeshLight>> moved_meshes;  ///< [instance], not as in the base
   DistantLights distant;
-  std::vector<float> powers;      ///< scratch
-  Distribution by_power;          ///< local lights: points, spheres, meshes in this order
-  float distant_probability = 0;  ///< to choose among the distant lights
+  std::vector<LightTree::Light> tree_lights;  ///< scratch
+  LightTree tree;                             ///< local lights: points, spheres, meshes in this order
+  float distant_probability = 0;              ///< to choose among the distant lights
 
   std::size_t local_count() const { return points.size() + spheres.size() + meshes.size(); }
 
@@ -45,6 +45,14 @@ struct LightSet::Data {
   void add_flat_lamps();
   void divide_choices();
 
+  scene::Bounds bounds(std::size_t i) const {
+    if (i < points.size())
+      return {points[i].position - points[i].radius, points[i].position + points[i].radius};
+    i -= points.size();
+    if (i < spheres.size())
+      return {spheres[i].center - spheres[i].radius, spheres[i].center + spheres[i].radius};
+    return meshes[i - spheres.size()]->bounds();
+  }
   float importance(std::size_t i, const vec3& from) const {
     if (i < points.size()) return points[i].importance(from);
     i -= points.size();
@@ -64,48 +72,51 @@ struct LightSet::Data {
     return meshes[i - spheres.size()]->sample(from, u_choice, u);
   }
 
-  /// Probabilities of the local lights as seen from a point, few lights only. False: none reaches the point.
-  bool weigh(const vec3& from, std::array<float, max_weighed>& probability) const {
-    const std::size_t count = local_count();
-    if (count == 1) {
+  using Weights = std::array<float, LightTree::most_in_leaf>;
+
+  /// Probabilities of the lights of a leaf as seen from a point. False: none reaches the point.
+  bool weigh(std::span<const std::uint32_t> leaf, const vec3& from, Weights& probability) const {
+    if (leaf.size() == 1) {
       probability[0] = 1;
       return true;
     }
     float total = 0, active = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const float w = importance(i, from);
+    for (std::size_t i = 0; i < leaf.size(); ++i) {
+      const float w = importance(leaf[i], from);
       probability[i] = w;
       total += w;
       active += w > 0 ? 1.0f : 0.0f;
     }
     if (!(total > 0 && std::isfinite(total))) return false;
     const float scale = (1 - uniform_share) / total, base = uniform_share / active;
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < leaf.size(); ++i)
       probability[i] = probability[i] > 0 ? base + scale * probability[i] : 0;
     return true;
   }
 
-  float local_probability(std::size_t i, const vec3& from) const {
-    const float any = 1 - distant_probability;
-    if (local_count() > max_weighed) return any * by_power.probability(i);
-    std::array<float, max_weighed> probability;
-    return weigh(from, probability) ? any * probability[i] : 0;
+  float local_probability(std::size_t light, const vec3& from) const {
+    const LightTree::Leaf leaf = tree.leaf_of(light, from);
+    const float any = (1 - distant_probability) * leaf.probability;
+    const auto i = std::ranges::lower_bound(leaf.lights, light) - leaf.lights.begin();
+    Weights probability;
+    return weigh(leaf.lights, from, probability) ? any * probability[i] : 0;
   }
 
   Distribution::Choice choose_local(const vec3& from, float u) const {
-    if (local_count() > max_weighed) return by_power.sample(u);
-    std::array<float, max_weighed> probability;
-    if (!weigh(from, probability)) return {0, 0, 0};
+    const auto [leaf, leaf_u] = tree.choose(from, u);
+    Weights probability;
+    if (!weigh(leaf.lights, from, probability)) return {0, 0, 0};
     std::size_t chosen = 0;
     float below = 0;
-    for (std::size_t i = 0; i < local_count(); ++i) {
+    for (std::size_t i = 0; i < leaf.lights.size(); ++i) {
       if (!(probability[i] > 0)) continue;
       chosen = i;
-      if (u < below + probability[i]) break;
-      below += i + 1 < local_count() ? probability[i] : 0;
+      if (leaf_u < below + probability[i]) break;
+      below += i + 1 < leaf.lights.size() ? probability[i] : 0;
     }
     const float p = probability[chosen];
-    return {chosen, glm::clamp((u - below) / p, 0.0f, 0x1.fffffep-1f), p};
+    return {leaf.lights[chosen], glm::clamp((leaf_u - below) / p, 0.0f, 0x1.fffffep-1f),
+            leaf.probability * p};
   }
 };
 

@@ -175,13 +175,16 @@ void LightSet::Data::add_flat_lamps() {
 
 /// Divides the samples between distant and local lights by the irradiance they give, neither below a quarter.
 void LightSet::Data::divide_choices() {
-  powers.clear();
+  tree_lights.clear();
   float total = 0;
-  for (std::size_t i = 0; i < local_count(); ++i) powers.push_back(power(i)), total += powers.back();
-  by_power.assign(powers);
+  for (std::size_t i = 0; i < local_count(); ++i) {
+    tree_lights.push_back({bounds(i), power(i)});
+    total += tree_lights.back().power;
+  }
+  tree.assign(tree_lights);
   if (distant.empty()) {
     distant_probability = 0;
-  } else if (by_power.empty()) {
+  } else if (tree.empty()) {
     distant_probability = 1;
   } else {
     const float local = scene_radius > 0 ? total / (scene_radius * scene_radius) : distant.irradiance();
