@@ -16,9 +16,8 @@ constexpr std::string_view vertex_shader = R"(#version 450 core
 layout(std430, binding = 0) readonly buffer Colors { vec4 colors[]; };    // [probe][vertex]
 layout(std430, binding = 1) readonly buffer Shape { vec4 directions[]; };  // of the mesh
 layout(std430, binding = 2) readonly buffer Corners { uint corners[]; };
-layout(std430, binding = 3) readonly buffer Shown { vec4 shown[]; };  // position, probe
+layout(std430, binding = 3) readonly buffer Shown { vec4 shown[]; };  // position, radius; one for each probe
 uniform mat4 world_to_clip;
-uniform float radius;
 uniform float lobes;
 uniform int vertex_count;
 uniform int corner_count;
@@ -28,8 +27,8 @@ out vec3 normal;
 out vec3 place_seen;
 flat out int chosen;
 void main() {
-  vec4 place = shown[gl_VertexID / corner_count];
-  int probe = int(place.w + 0.5);
+  int probe = gl_VertexID / corner_count;
+  vec4 place = shown[probe];
   uint corner = corners[gl_VertexID % corner_count];
   vec4 color = colors[probe * vertex_count + int(corner)];
   vec3 direction = directions[corner].xyz;
@@ -37,7 +36,7 @@ void main() {
   normal = direction;
   chosen = probe == selected ? 1 : 0;
   // color.a: luminance in this direction, the probe's brightest being 1.
-  float r = radius * (chosen == 1 ? 1.25 : 1.0) * mix(1.0, 0.25 + 1.5 * color.a, lobes);
+  float r = place.w * (chosen == 1 ? 1.25 : 1.0) * mix(1.0, 0.25 + 1.5 * color.a, lobes);
   place_seen = place.xyz + r * direction;
   gl_Position = world_to_clip * vec4(place_seen, 1.0);
 }
@@ -124,8 +123,8 @@ void BallsGl::draw(const probes::ProbeSet& set, const Look& look, const Behind& 
                    int width, int height) {
   Data& d = *data_;
   d.places.clear();
-  for (std::size_t i = 0; i < set.probes.size(); ++i)
-    d.places.emplace_back(set.probes[i].position, static_cast<float>(i));
+  for (const probes::Probe& probe : set.probes)
+    d.places.emplace_back(probe.position, seen_ball_size(look.radius, look.view, probe.position));
   if (d.places.empty() || d.values.empty()) return;
   d.shown.reserve(d.places.size() * sizeof(vec4));
   d.shown.update(std::span<const vec4>(d.places));
@@ -142,7 +141,6 @@ void BallsGl::draw(const probes::ProbeSet& set, const Look& look, const Behind& 
   d.program.use();
   d.program.set("world_to_clip", frame.view_projection);
   d.program.set("depth_scale", vec2(frame.depth.width(), frame.depth.height()) / vec2(width, height));
-  d.program.set("radius", look.radius);
   d.program.set("lobes", look.lobes ? 1.0f : 0.0f);
   d.program.set("vertex_count", static_cast<int>(d.shader->mesh().vertices.size()));
   d.program.set("corner_count", d.corner_count);

@@ -170,11 +170,12 @@ int ball_under_mouse(const App& app) {
     if (const auto surface = pick_surface(*app.picking(), app.document.time, ray))
       limit = glm::distance(surface->position, ray.origin);
   }
-  std::vector<vec3> centers;
-  for (const probes::Probe& probe : app.light.set().probes) centers.push_back(probe.position);
   const float radius =
       app.settings.ball_size > 0 ? app.settings.ball_size : default_ball_size(app.light.set());
-  return sphl_of_probe(app, pick_sphere(ray, centers, 1.1f * radius, limit));
+  std::vector<vec4> balls;
+  for (const probes::Probe& probe : app.light.set().probes)
+    balls.emplace_back(probe.position, 1.1f * seen_ball_size(radius, app.view, probe.position));
+  return sphl_of_probe(app, pick_sphere(ray, balls, limit));
 }
 
 /// A click in place mode: an SPHL off the surface under the mouse, half a metre in a room, or nearer in

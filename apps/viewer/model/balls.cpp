@@ -89,12 +89,16 @@ int ball_levels(std::size_t balls) {
   return balls <= 64 ? 4 : balls <= 512 ? 3 : 2;
 }
 
+float seen_ball_size(float radius, const View& view, const vec3& place) {
+  return view.orthographic ? radius : std::min(radius, widest_ball * glm::distance(view.eye, place));
+}
+
 float default_ball_size(const probes::ProbeSet& set) {
   std::vector<vec3> positions;
   for (const probes::Probe& probe : set.probes) positions.push_back(probe.position);
   if (positions.size() < 2) return 0.12f;
   const float spacing = probes::median_spacing(positions);
-  return std::min(spacing / 6, std::max(0.12f, spacing / 40));
+  return std::min(spacing / 6, std::max(0.12f, spacing / 20));
 }
 
 }  // namespace ssphh::viewer

@@ -7,6 +7,7 @@
 #include <ssphh/probes/probe_set.h>
 
 #include "settings.h"
+#include "view_camera.h"
 
 namespace ssphh::viewer {
 
@@ -36,8 +37,15 @@ class BallShader {
 /// How often balls are halved of which so many are drawn: many small ones need fewer triangles each.
 int ball_levels(std::size_t balls);
 
+/// Greatest radius of a ball beside its distance from the eye of a perspective view: a near one hides no
+/// picture.
+constexpr float widest_ball = 0.1f;
+
+/// The radius [m] with which balls of this one are drawn at a place.
+float seen_ball_size(float radius, const View& view, const vec3& place);
+
 /// Radius of balls that do not hide each other [m], for Settings::ball_size 0: a sixth of the probes' median
-/// distance, at most 0.12 or a fortieth of it.
+/// distance, at most 0.12 or a twentieth of it.
 float default_ball_size(const probes::ProbeSet& set);
 
 }  // namespace ssphh::viewer

@@ -6,10 +6,11 @@
 
 namespace ssphh::viewer {
 
-int pick_sphere(const rays::RayQuery& ray, std::span<const vec3> centers, float radius, float limit) {
+int pick_sphere(const rays::RayQuery& ray, std::span<const vec4> spheres, float limit) {
   int best = -1;
-  for (std::size_t i = 0; i < centers.size(); ++i) {
-    const vec3 to = centers[i] - ray.origin;
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    const vec3 to = vec3(spheres[i]) - ray.origin;
+    const float radius = spheres[i].w;
     const float along = glm::dot(to, ray.direction);
     const float off = glm::dot(to, to) - along * along;
     if (off > radius * radius) continue;

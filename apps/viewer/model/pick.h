@@ -8,8 +8,8 @@
 
 namespace ssphh::viewer {
 
-/// The nearest sphere on the ray in front of `limit` metres, all of one radius; −1: none.
-int pick_sphere(const rays::RayQuery& ray, std::span<const vec3> centers, float radius, float limit);
+/// The nearest sphere (center, radius [m]) on the ray in front of `limit` metres; −1: none.
+int pick_sphere(const rays::RayQuery& ray, std::span<const vec4> spheres, float limit);
 
 /// Nearest surface of the posed scene on a world-space ray with a unit direction: point and normal toward the
 /// ray's origin.

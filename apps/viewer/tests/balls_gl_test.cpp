@@ -16,6 +16,7 @@ namespace ssphh::viewer {
 namespace {
 
 constexpr int size = 96;
+const float angle = 2 * std::atan(0.125f);
 
 class BallsGlTest : public test::WithGl {
  protected:
@@ -29,7 +30,7 @@ class BallsGlTest : public test::WithGl {
     target_ = gl::Framebuffer(colors, &depth_);
     // What stands in front of everything in the left third, at two samples a pixel.
     scene_ = gl::Texture(gl::Format::r32f, 2 * size, 2 * size);
-    look_.view = look_at({0, 0, 3}, {0, 0, 0}, 2 * std::atan(0.5f));
+    look_.view = look_at({0, 0, 12}, {0, 0, 0}, angle);
     look_.radius = 0.5f;
     cover(0);
   }
@@ -53,10 +54,10 @@ class BallsGlTest : public test::WithGl {
     gl::bind_framebuffer(target_.id(), {0, 0, size, size});
     gl::clear_color(0, 0.2f, 0.4f, 0.6f, 1);
     balls_->update(set_, Ball::self);
-    // Reversed depth: 1 at the near plane, 0.1 m away, 0 far away. The picture's edges are half its distance
-    // away.
+    // Reversed depth: 1 at the near plane, 0.1 m away, 0 far away. The picture's edges are an eighth of
+    // its distance away.
     mat4 projection(0);
-    projection[0][0] = projection[1][1] = 2, projection[2][3] = -1, projection[3][2] = 0.1f;
+    projection[0][0] = projection[1][1] = 8, projection[2][3] = -1, projection[3][2] = 0.1f;
     const mat4 to_view = glm::inverse(pose_of(look_.view).world);
     balls_->draw(set_, look_, {scene_, projection * to_view}, target_.id(), size, size);
     gl().throw_on_error("balls");
@@ -74,7 +75,7 @@ class BallsGlTest : public test::WithGl {
     const vec3 to = set_.probes[i].position - ray.origin;
     const float along = glm::dot(to, ray.direction), off = glm::dot(to, to) - along * along;
     Expected out;
-    out.sure = std::abs(std::sqrt(off) - radius) > 1.5f * along / size;
+    out.sure = std::abs(std::sqrt(off) - radius) > 1.5f * along * 0.25f / size;
     if (off >= radius * radius) return out;
     const vec3 hit = ray.origin + (along - std::sqrt(radius * radius - off)) * ray.direction;
     const vec3 n = glm::normalize(hit - set_.probes[i].position);
@@ -142,11 +143,11 @@ TEST_F(BallsGlTest, EachPixelIsTheBallsLightIntoItsDirection) {
   expect_ball(0.5f, false, size / 2 + 5);
   cover(0);
   // Another place of the eye
-  look_.view = look_at({1, 0.5f, 2.5f}, {0.2f, 0, 0}, 2 * std::atan(0.5f));
+  look_.view = look_at({3.4f, 2, 10}, {0.2f, 0, 0}, angle);
   expect_ball(0.5f);
   // Light of one brightness all around: lobes reach 1.75 of the radius; without light in a direction a
   // quarter.
-  look_.view = look_at({0, 0, 3}, {0, 0, 0}, 2 * std::atan(0.5f));
+  look_.view = look_at({0, 0, 12}, {0, 0, 0}, angle);
   set_.probes.clear();
   add({0, 0, 0}, vec3(0.5f));
   look_.lobes = true;
@@ -161,6 +162,20 @@ TEST_F(BallsGlTest, EachPixelIsTheBallsLightIntoItsDirection) {
   };
   EXPECT_TRUE(covered(0.3f * 1.6f) && covered(-0.3f * 0.2f));
   EXPECT_FALSE(covered(0.3f * 2.0f) || covered(-0.3f * 0.4f));
+}
+
+TEST_F(BallsGlTest, OneBesideTheEyeHidesNoPicture) {
+  add({0, 0, 0}, {0.4f, 0.3f, 0.2f}, {0.3f, -0.2f, 0.1f});
+  look_.view = look_at({0, 0, 3}, {0, 0, 0}, angle);
+  const std::vector<std::uint8_t> near_one = draw();
+  look_.radius = 10;
+  EXPECT_EQ(draw(), near_one);
+  look_.radius = 0.2f;
+  EXPECT_NE(draw(), near_one);
+  EXPECT_FLOAT_EQ(seen_ball_size(0.5f, look_.view, {0, 0, 0}), 0.3f);
+  EXPECT_FLOAT_EQ(seen_ball_size(0.5f, look_.view, {0, 0, -7}), 0.5f) << "farther away it has its size";
+  look_.view.orthographic = true;
+  EXPECT_EQ(seen_ball_size(0.5f, look_.view, {0, 0, 0}), 0.5f) << "there is no near and far";
 }
 
 TEST_F(BallsGlTest, TheNearerBallHidesTheOther) {

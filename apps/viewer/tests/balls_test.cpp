@@ -93,9 +93,10 @@ TEST(Balls, HaveASixthOfTheProbesDistanceAtMostTwelveCentimetresOrAFortieth) {
   };
   EXPECT_FLOAT_EQ(size(0.3f, 4), 0.05f);
   EXPECT_FLOAT_EQ(size(0.3f, 2), 0.05f);
-  EXPECT_FLOAT_EQ(size(3, 4), 0.12f);
+  EXPECT_FLOAT_EQ(size(2, 4), 0.12f);
+  EXPECT_FLOAT_EQ(size(8, 4), 0.4f) << "in a hall";
   EXPECT_FLOAT_EQ(size(0.0006f, 4), 0.0001f) << "of a scene as large as a coin";
-  EXPECT_FLOAT_EQ(size(800, 4), 20) << "in millimetres taken for metres";
+  EXPECT_FLOAT_EQ(size(800, 4), 40) << "in millimetres taken for metres";
   EXPECT_FLOAT_EQ(size(0.3f, 1), 0.12f);
 }
 

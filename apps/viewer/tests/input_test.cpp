@@ -225,7 +225,7 @@ TEST_F(Input, SignsAndHandlesAreAsLargeAsTheyLook) {
 
 TEST_F(Input, ABallIsTakenWhereNoSurfaceHidesIt) {
   take_probes();
-  app().settings.ball_size = 0.3f;
+  app().settings.ball_size = 0.3f;                         // more than one that is so near is shown with
   const vec3 ball = app().light.set().probes[0].position;  // "A west"
   app().view = look_at(ball + vec3(0, 0, 1.5f), ball, 1);
   // Of the picture's middle to where a tenth beyond the ball ends; ImGui's mouse stands at whole pixels.
@@ -237,10 +237,10 @@ TEST_F(Input, ABallIsTakenWhereNoSurfaceHidesIt) {
   click(middle.x, middle.y);
   EXPECT_FALSE(app().selection.is(Kind::sphl)) << "balls are not shown";
   app().settings.balls = true;
-  click(middle.x + std::floor(reach(0.3f)), middle.y);
+  click(middle.x + std::floor(reach(1.5f * widest_ball)), middle.y);
   EXPECT_EQ(app().selection, (Selection{Kind::sphl, 0}));
   app().selection = {};
-  click(middle.x + std::ceil(reach(0.3f)), middle.y);
+  click(middle.x + std::ceil(reach(1.5f * widest_ball)), middle.y);
   EXPECT_FALSE(app().selection.is(Kind::sphl));
   // Without a size of its own a ball has that by the probes' distance.
   app().settings.ball_size = 0;

@@ -136,26 +136,32 @@ TEST(LiveLight, ABakeHasGroupsApartAndTellsHowItWasMade) {
   EXPECT_FALSE(set.probes[0].self.empty());
 }
 
+std::vector<vec4> spheres(const std::vector<vec3>& centers, float radius) {
+  std::vector<vec4> out;
+  for (const vec3& center : centers) out.emplace_back(center, radius);
+  return out;
+}
+
 TEST(Pick, TakesTheNearestSphereInFront) {
   const std::vector<vec3> centers{{0, 0, -9}, {0, 0.05f, -4}, {0, 0, 3}, {2, 0, -4}};
   const rays::RayQuery ray{{0, 0, 0}, {0, 0, -1}, 100};
-  EXPECT_EQ(pick_sphere(ray, centers, 0.1f, 100), 1);
-  EXPECT_EQ(pick_sphere(ray, centers, 0.1f, 3), -1) << "a surface is nearer";
-  EXPECT_EQ(pick_sphere(ray, centers, 0.01f, 100), 0);
+  EXPECT_EQ(pick_sphere(ray, spheres(centers, 0.1f), 100), 1);
+  EXPECT_EQ(pick_sphere(ray, spheres(centers, 0.1f), 3), -1) << "a surface is nearer";
+  EXPECT_EQ(pick_sphere(ray, spheres(centers, 0.01f), 100), 0);
 }
 
 // Spheres of radius 1 straight ahead, their front at a distance of 1 and 3.
 TEST(Pick, ASphereBeginsAtItsFront) {
   const std::vector<vec3> two{{0, 0, -4}, {0, 0, -2}};
   const rays::RayQuery ray{{0, 0, 0}, {0, 0, -1}, 100};
-  EXPECT_EQ(pick_sphere(ray, two, 1, 100), 1);
-  EXPECT_EQ(pick_sphere(ray, two, 1, 1.01f), 1);
-  EXPECT_EQ(pick_sphere(ray, two, 1, 1), -1) << "a surface as near hides it";
+  EXPECT_EQ(pick_sphere(ray, spheres(two, 1), 100), 1);
+  EXPECT_EQ(pick_sphere(ray, spheres(two, 1), 1.01f), 1);
+  EXPECT_EQ(pick_sphere(ray, spheres(two, 1), 1), -1) << "a surface as near hides it";
   const std::vector<vec3> around{{0, 0, -0.5f}};
-  EXPECT_EQ(pick_sphere(ray, around, 1, 100), -1) << "from within";
+  EXPECT_EQ(pick_sphere(ray, spheres(around, 1), 100), -1) << "from within";
   const std::vector<vec3> beside{{0.6f, 0.7f, -4}};  // 0.922 from the ray
-  EXPECT_EQ(pick_sphere(ray, beside, 0.93f, 100), 0);
-  EXPECT_EQ(pick_sphere(ray, beside, 0.91f, 100), -1);
+  EXPECT_EQ(pick_sphere(ray, spheres(beside, 0.93f), 100), 0);
+  EXPECT_EQ(pick_sphere(ray, spheres(beside, 0.91f), 100), -1);
 }
 
 TEST(Pick, FindsTheDoorWhereItStandsAtThatTime) {
