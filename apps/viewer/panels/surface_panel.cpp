@@ -9,6 +9,9 @@
 namespace ssphh::viewer {
 namespace {
 
+/// Of an emitter that is turned off [W/(sr m²)]: without any it would leave its light group.
+constexpr float least_emission = 1e-6f;
+
 template <class Change>
 void edit(App& app, std::size_t i, const Change& change) {
   app.document.edit("material " + app.document.edits().materials[i].name,
@@ -48,9 +51,11 @@ void draw_material(App& app, std::size_t i) {
   vec3 emission = material.emission;
   if (ImGui::DragFloat3("##emission", glm::value_ptr(emission),
                         std::max(0.02f * max_component(emission), 0.01f), 0, 1e6f, "%.4g"))
-    edit(app, i, [&](scene::Material& m) { m.emission = glm::max(emission, vec3(0)); });
+    edit(app, i, [&](scene::Material& m) {
+      m.emission = max_component(emission) > 0 ? glm::max(emission, vec3(0)) : vec3(least_emission);
+    });
   seal_after_edit(app);
-  tip("radiance, W/(sr m²); an emitter stays one: at least a little of it is kept");
+  tip("radiance, W/(sr m²); an emitter stays one: at least a little of it is kept, too little to be seen");
 }
 
 }  // namespace

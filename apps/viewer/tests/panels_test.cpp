@@ -116,6 +116,13 @@ TEST_F(Panels, FieldsFollowTheMouseAtTheirSpeed) {
   open("Surfaces");
   expect_pulled(
       "emission", [&] { return edits().materials[2].emission.x; }, 0.06f, 0, 1e6f);
+  app().edit("red", [](Edits& e) { e.materials[2].emission = vec3(0.5f, 0, 0); });
+  const std::vector<std::string> groups = scene::light_groups(app().document.edited());
+  pull("emission", -9999);
+  EXPECT_EQ(scene::light_groups(app().document.edited()), groups) << "it can be turned on again";
+  EXPECT_LT(max_component(edits().materials[2].emission), 1e-5f);
+  pull("emission", 100);
+  EXPECT_GT(edits().materials[2].emission.x, 0.1f);
   open("Camera");
   expect_pulled(
       "eye", [&] { return app().view.eye.x; }, 0.02f, 0, 0);
