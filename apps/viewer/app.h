@@ -93,8 +93,7 @@ class App {
   bool keeping() const { return !keeper_.idle(); }
   /// Lets the user choose a file, at first in this folder; empty: in the scene's.
   void ask_for_file(FileDialog::For what, const std::filesystem::path& in = {});
-  /// What is kept of the window beside scenes, and taken up by the next session. Where nobody sits nothing
-  /// is.
+  /// What is kept of the window beside scenes for the next session; where nobody sits nothing is.
   WindowLook look() const;
   void take_look();
   /// Writes it where it has changed, once nothing is being dragged.
@@ -257,6 +256,7 @@ class App {
   std::optional<FarmClient> farm;
   Preferences preferences;
   std::optional<FileDialog> dialog;
+  std::filesystem::path replaces;  ///< file that save_button() writes over if pressed again
   Picture picture;
   FrameTimes times;
   realtime::FrameStats last_stats;

@@ -132,7 +132,8 @@ void App::remember_scene(const std::string& source, bool stays) {
 }
 
 WindowLook App::look() const {
-  return {side_width, settings.histogram, settings.waveform, settings.false_color, settings.quality};
+  return {side_width,       settings.histogram, settings.waveform,  settings.false_color,
+          settings.quality, settings.snap,      settings.snap_angle};
 }
 
 void App::take_look() {
@@ -142,6 +143,8 @@ void App::take_look() {
   settings.waveform = preferences.look.waveform;
   settings.false_color = preferences.look.false_color;
   settings.quality = preferences.look.quality;
+  settings.snap = preferences.look.snap;
+  settings.snap_angle = preferences.look.snap_angle;
 }
 
 void App::keep_look() {

@@ -26,8 +26,8 @@ Preferences read_preferences(const std::filesystem::path& file) {
   const json::Value value = json::parse(read_text_file(file, 1 << 20), name);
   const json::Cursor in(value, name);
   in.expect_format(preferences_format, preferences_version);
-  in.members({"format", "version"},
-             {"recent", "side_width", "histogram", "waveform", "false_color", "quality"});
+  in.members({"format", "version"}, {"recent", "side_width", "histogram", "waveform", "false_color",
+                                     "quality", "snap", "snap_angle_degrees"});
   if (in.has("recent")) {
     for (const json::Cursor& scene : json::elements(in["recent"]))
       preferences.recent.push_back(scene.text(4096));
@@ -38,6 +38,8 @@ Preferences read_preferences(const std::filesystem::path& file) {
   look.waveform = in.boolean_or("waveform", false);
   look.false_color = in.boolean_or("false_color", false);
   if (in.has("quality")) look.quality = in["quality"].named<Quality>();
+  look.snap = in.boolean_or("snap", look.snap);
+  if (in.has("snap_angle_degrees")) look.snap_angle = in["snap_angle_degrees"].number(0.1f, 180);
   return preferences;
 }
 
@@ -51,7 +53,9 @@ void write_preferences(const Preferences& preferences, const std::filesystem::pa
                            {"histogram", preferences.look.histogram},
                            {"waveform", preferences.look.waveform},
                            {"false_color", preferences.look.false_color},
-                           {"quality", name_of(preferences.look.quality)}};
+                           {"quality", name_of(preferences.look.quality)},
+                           {"snap", preferences.look.snap},
+                           {"snap_angle_degrees", preferences.look.snap_angle}};
   write_file(file, json::print(out, 2) + "\n");
 }
 

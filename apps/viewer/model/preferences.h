@@ -14,6 +14,8 @@ struct WindowLook {
   float side_width = 0;  ///< of the panels, in heights of the text; 0: as suits the window
   bool histogram = false, waveform = false, false_color = false;
   Quality quality = Quality::window;  ///< of light that the window finds
+  bool snap = false;                  ///< drags go in steps
+  float snap_angle = 15;              ///< [degrees]
 
   friend bool operator==(const WindowLook&, const WindowLook&) = default;
 };

@@ -104,22 +104,12 @@ void draw_frames(App& app) {
   if (app.bookmarks.empty()) return;
   static char folder[256] = "frames";
   static int fps = 30;
-  // Asked for once, while there were some already
-  static std::string replaces;
   file_row("frames in", folder);
   row("a second");
   ImGui::DragInt("##fps", &fps, 0.2f, 1, 240, "%d", ImGuiSliderFlags_AlwaysClamp);
-  if (replaces != folder) replaces.clear();
-  if (!wide_button(replaces.empty() ? "Draw the frames" : "Replace the frames there")) return;
-  attempt(app, [&] {
-    const std::filesystem::path first = std::filesystem::path(folder) / frame_name(0);
-    if (replaces.empty() && std::filesystem::exists(first)) {
-      replaces = folder;
-      return app.say(first.string() + " is there already: press once more to replace the frames");
-    }
-    replaces.clear();
-    export_frames(app, folder, fps);
-  });
+  const std::filesystem::path first = std::filesystem::path(folder) / frame_name(0);
+  if (save_button(app, "Draw the frames", "Replace the frames there", first, -1))
+    attempt(app, [&] { export_frames(app, folder, fps); });
 }
 
 void draw_bookmarks(App& app) {
@@ -153,7 +143,7 @@ void draw_bookmarks(App& app) {
   }
   static char file[256] = "path.json";
   file_row("file", file);
-  if (ImGui::Button("Save")) attempt(app, [&] { app.save_path(file); });
+  if (save_button(app, "Save", "Replace", file)) attempt(app, [&] { app.save_path(file); });
   ImGui::SameLine();
   if (ImGui::Button("Open")) attempt(app, [&] { app.load_path(file); });
   draw_frames(app);

@@ -83,8 +83,7 @@ void draw_farm_panel(App& app) {
   } else if (farm.lost()) {
     note("It does not answer. Bakes that go to it wait until it does.");
   }
-  row("at the farm");
-  ImGui::Checkbox("##used", &farm.used);
+  tick_row("at the farm", &farm.used);
   tip("Bakes that begin from now on, GEN and VIZ, go to its workers; else this machine does them.");
   if (farm.used && app.baking()) draw_bake(app);
   if (farm.lost()) return;

@@ -61,8 +61,7 @@ void draw_direction(App& app, std::size_t i, const mat4& world) {
 void draw_snapping(App& app) {
   Settings& s = app.settings;
   const Lengths lengths = lengths_of(app.document.bounds);
-  row("snap");
-  if (ImGui::Checkbox("##snap", &s.snap)) app.redraw();
+  if (tick_row("snap", &s.snap)) app.redraw();
   tip("Handles and rings go in steps, and freely with Ctrl; without the tick Ctrl makes them go in steps.");
   row("steps [m], [°]");
   float steps[2] = {s.snap_step > 0 ? s.snap_step : snap_step(lengths), s.snap_angle};

@@ -67,8 +67,9 @@ void draw_file_menu(App& app) {
     attempt(app, [&] { app.show_elsewhere(); });
   tip("as linear radiance, and the truth where one is traced, in the viewer of HDR pictures tev, which must "
       "be running");
-  if (ImGui::MenuItem("Save times as times.csv", nullptr, false, open))
-    attempt(app, [&] { app.save_stats("times.csv"); });
+  if (ImGui::MenuItem("Save times of frames", nullptr, false, open))
+    attempt(app, [&] { app.save_stats(app.free_file(".csv")); });
+  tip("as a new .csv file in the current folder; the panel Times saves them under a name");
   ImGui::Separator();
   if (ImGui::MenuItem("Quit")) app.window.close();
 }

@@ -38,8 +38,7 @@ void draw_truth(App& app) {
 
 void draw_picture_panel(App& app) {
   heading("Picture");
-  row("automatic");
-  if (ImGui::Checkbox("##automatic", &app.settings.auto_exposure)) app.redraw();
+  if (tick_row("automatic", &app.settings.auto_exposure)) app.redraw();
   tip("The exposure follows what suits the picture; key \\");
   setting_slider(app, "exposure", "exposure", -12, 8, "%+.2f EV");
   setting_widget(app, "tone curve", "tonemap");

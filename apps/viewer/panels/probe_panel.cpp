@@ -242,7 +242,7 @@ void draw_files(App& app) {
   heading("File");
   static char file[256] = "probes.sphl";
   file_row("probes", file);
-  if (ImGui::Button("Save")) attempt(app, [&] { app.save_probes(file); });
+  if (save_button(app, "Save", "Replace", file)) attempt(app, [&] { app.save_probes(file); });
   ImGui::SameLine();
   if (ImGui::Button("Open")) attempt(app, [&] { app.take_probe_file(file); });
 }

@@ -47,7 +47,8 @@ void draw_stats_panel(App& app) {
   for (const FrameTimes::Stage& stage : app.times.stages()) draw_graph(stage);
   static char file[256] = "times.csv";
   file_row("file", file);
-  if (ImGui::Button("Save .csv or .json")) attempt(app, [&] { app.save_stats(file); });
+  if (save_button(app, "Save .csv or .json", "Replace the file", file))
+    attempt(app, [&] { app.save_stats(file); });
   beside("Begin anew");
   if (ImGui::Button("Begin anew")) app.times.clear();
 }

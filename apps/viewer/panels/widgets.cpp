@@ -22,17 +22,29 @@ void set(App& app, const SettingName& setting, const std::string& value) {
   app.redraw();
 }
 
+/// A label with what comes next beside it, or below.
+void begin_row(const char* label, bool beside) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(label);
+  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  if (beside)
+    ImGui::SameLine(
+        std::max(0.36f * ImGui::GetWindowContentRegionMax().x, ImGui::CalcTextSize(label).x + gap));
+}
+
 }  // namespace
 
 void row(const char* label) {
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(label);
-  const float width = ImGui::GetWindowContentRegionMax().x;
-  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
-  // Where there is room for one beside the other
-  if (width > 20 * ImGui::GetFontSize())
-    ImGui::SameLine(std::max(0.36f * width, ImGui::CalcTextSize(label).x + gap));
+  begin_row(label, ImGui::GetWindowContentRegionMax().x > 20 * ImGui::GetFontSize());
   ImGui::SetNextItemWidth(-1);
+}
+
+bool tick_row(const char* label, bool* on) {
+  begin_row(label, true);
+  ImGui::PushID(label);
+  const bool changed = ImGui::Checkbox("##on", on);
+  ImGui::PopID();
+  return changed;
 }
 
 void heading(const char* text) {
@@ -82,6 +94,19 @@ void file_row(const char* label, char (&file)[256]) {
   ImGui::PopID();
 }
 
+bool save_button(App& app, const char* label, const char* replace, const std::filesystem::path& file,
+                 float width) {
+  const bool asked = app.replaces == file;
+  const char* shown = asked ? replace : label;
+  if (!ImGui::Button(shown, {width, 0})) return false;
+  std::error_code ignored;
+  app.replaces.clear();
+  if (asked || !std::filesystem::exists(file, ignored)) return true;
+  app.replaces = file;
+  app.say(fmt::format("{} is there already: press \"{}\" to replace it", file.string(), replace));
+  return false;
+}
+
 void complain(App& app, const char* what) {
   app.complain(what);
 }
@@ -90,12 +115,12 @@ void setting_widget(App& app, const char* label, const char* name) {
   const SettingName& s = setting(name);
   const std::string value = s.get(app.settings);
   ImGui::PushID(name);
-  row(label);
   if (s.choices.size() == 2 && s.choices[0] == "off") {
     bool on = value == "on";
-    if (ImGui::Checkbox("##value", &on)) set(app, s, on ? "on" : "off");
+    if (tick_row(label, &on)) set(app, s, on ? "on" : "off");
     tip(s.help.c_str());
   } else if (!s.choices.empty()) {
+    row(label);
     const bool open = ImGui::BeginCombo("##value", value.c_str());
     if (!open) tip(s.help.c_str());
     if (open) {
@@ -105,6 +130,7 @@ void setting_widget(App& app, const char* label, const char* name) {
       ImGui::EndCombo();
     }
   } else {
+    row(label);
     int number = std::atoi(value.c_str());
     if (ImGui::InputInt("##value", &number)) set(app, s, fmt::format("{}", number));
     tip(s.help.c_str());

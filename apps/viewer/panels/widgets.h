@@ -2,6 +2,7 @@
 /// Pieces that several panels use.
 
 #include <exception>
+#include <filesystem>
 #include <string>
 
 namespace ssphh::viewer {
@@ -17,6 +18,9 @@ void setting_slider(App& app, const char* label, const char* name, float low, fl
 
 /// Starts a row: the label on the left, the next item fills the rest; in a narrow panel it stands below.
 void row(const char* label);
+
+/// A row with a tick box, which stands beside its label in a narrow panel, too; true when pressed.
+bool tick_row(const char* label, bool* on);
 
 /// Heading of a part of a panel.
 void heading(const char* text);
@@ -39,6 +43,11 @@ void seal_after_edit(App& app);
 
 /// A row with a file's name to type.
 void file_row(const char* label, char (&file)[256]);
+
+/// A button that writes a file, `width` pixels wide as ImGui has it; true: write it now. While a press has
+/// found one that is there it is called `replace`, and replaces that once it is pressed again.
+bool save_button(App& app, const char* label, const char* replace, const std::filesystem::path& file,
+                 float width = 0);
 
 void complain(App& app, const char* what);
 

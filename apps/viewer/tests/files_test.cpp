@@ -34,8 +34,9 @@ TEST(Preferences, ComeBackAndBrokenOnesAreRefused) {
   const test::TempDir dir;
   const fs::path file = dir / "config" / "preferences.json";
   EXPECT_TRUE(read_preferences(file).recent.empty());
-  write_preferences({{"/a b.glb", "/ä.glb"}, {21.5f, true, false}}, file);
-  EXPECT_EQ(read_preferences(file).look, (WindowLook{21.5f, true, false}));
+  const WindowLook look{21.5f, true, false, true, Quality::best, true, 22.5f};
+  write_preferences({{"/a b.glb", "/ä.glb"}, look}, file);
+  EXPECT_EQ(read_preferences(file).look, look);
   EXPECT_THAT(read_preferences(file).recent, ElementsAre("/a b.glb", "/ä.glb"));
   for (const char* text :
        {"{", "[]", R"({"format": "other", "version": 1})", R"({"format": "ssphh-preferences", "version": 9})",

@@ -1,7 +1,11 @@
 // What files, the bar of time and the menus do.
 
+#include <array>
+#include <vector>
+
 #include <gmock/gmock.h>
 
+#include <ssphh/core/file.h>
 #include <ssphh/probes/probe_file.h>
 
 #include "panel_stage.h"
@@ -34,6 +38,45 @@ TEST_F(Menus, FilesAreWrittenAndRead) {
   EXPECT_TRUE(app().times.stages().empty());
   EXPECT_THAT(app().report.written,
               ElementsAre(testing::EndsWith("/stage-01.glb"), "probes.sphl", "times.csv"));
+}
+
+TEST_F(Menus, AFileThatIsThereIsReplacedOnceTheButtonIsPressedAgain) {
+  take_probes();
+  app().times.add("frame", 3);
+  app().add_bookmark();
+  const std::vector<std::array<const char*, 4>> buttons = {
+      {"Probes", "Save", "Replace", "probes.sphl"},
+      {"Camera", "Save", "Replace", "path.json"},
+      {"Times", "Save .csv or .json", "Replace the file", "times.csv"}};
+  for (const auto& [tab, save, replace, file] : buttons) {
+    SCOPED_TRACE(file);
+    write_file(file, std::string_view("mine"));
+    open(tab);
+    click_text(save);
+    EXPECT_EQ(read_text_file(file), "mine");
+    EXPECT_THAT(app().message, testing::StartsWith(std::string(file) + " is there already"));
+    open("Light"), open(tab);
+    click_text(replace);
+    EXPECT_NE(read_text_file(file), "mine");
+    click_text(save);
+    EXPECT_TRUE(shows(replace)) << "asked each time";
+  }
+  app().say("");
+  open("Camera");
+  EXPECT_FALSE(shows("Replace")) << "another file was asked about";
+}
+
+TEST_F(Menus, SnapIsKeptForLaterSessions) {
+  options_.preferences = dir_ / "config" / "preferences.json";
+  start(1000, 1500);
+  EXPECT_FALSE(app().settings.snap);
+  app().settings.snap = true, app().settings.snap_angle = 22.5f;
+  app().keep_look();
+  start(1000, 1500);
+  EXPECT_TRUE(app().settings.snap);
+  EXPECT_EQ(app().settings.snap_angle, 22.5f);
+  options_.settings = {{"snap", "off"}};
+  EXPECT_FALSE(start(1000, 1500).settings.snap) << "the command line comes first";
 }
 
 TEST_F(Menus, TheBarOfTimePlaysAndShowsWork) {
@@ -114,13 +157,14 @@ TEST_F(Menus, MenusDoWhatTheySay) {
   choose("Edit", "Redo delete SPHL");
   EXPECT_EQ(app().document.edits().sphls.size(), 5u);
   choose("File", "Save scene");
-  choose("File", "Save times as times.csv");
+  choose("File", "Save times of frames");
+  choose("File", "Save times of frames");
   EXPECT_FALSE(shows("Save probes as"));
   take_probes();
   choose("File", "Save probes as?");
   press({GLFW_KEY_ENTER});
   const std::string probe_file = (std::filesystem::current_path() / "stage-01.sphl").string();
-  EXPECT_THAT(app().report.written, ElementsAre("stage-01.glb", "times.csv", probe_file));
+  EXPECT_THAT(app().report.written, ElementsAre("stage-01.glb", "stage-01.csv", "stage-02.csv", probe_file));
   choose("View", "Panels");
   EXPECT_FALSE(app().panels);
   app().panels = true;

@@ -77,6 +77,15 @@ TEST_F(PanelsFit, EveryWordOfEveryTab) {
   }
 }
 
+TEST_F(PanelsFit, ATickBoxStandsBesideItsLabelInNarrowPanelsToo) {
+  open_on({800, 600, 2});
+  open("Picture");
+  const DrawnThing box = widget("automatic");
+  EXPECT_NEAR(box.to.x - box.from.x, box.to.y - box.from.y, 1) << "as wide as high";
+  click(0.5f * (box.from.x + box.to.x), 0.5f * (box.from.y + box.to.y));
+  EXPECT_FALSE(app().settings.auto_exposure);
+}
+
 TEST_F(PanelsFit, HelpQuestionsMessagesAndWork) {
   for (const Screen& screen : screens) {
     open_on(screen);
