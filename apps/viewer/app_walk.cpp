@@ -11,10 +11,11 @@ void App::toggle_walk() {
     walking = false;
     return say("flying again");
   }
-  walker = walker_in(view, walker, rays::PosedWorld(*picking_, document.time));
-  const auto standing = stood(view, walker, rays::PosedWorld(*picking_, document.time));
-  if (!standing) return say("there is no ground below to walk on; go above some first");
-  view = *standing;
+  const rays::PosedWorld world(*picking_, document.time);
+  const auto place = above_ground(view, world);
+  if (!place) return say("there is no ground to walk on, below or ahead; go above some first");
+  walker = walker_in(*place, walker, world);
+  view = stood(*place, walker, world).value_or(*place);
   walking = true, path_plays = false;
   say("walking: W A S D, Shift runs, drags look around; V or Escape ends");
 }

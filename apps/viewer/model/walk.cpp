@@ -127,6 +127,15 @@ struct Body {
   }
 };
 
+/// Where a ceiling keeps the walker from standing up it goes on as high as it is.
+Walker bent(const View& view, const Walker& walker, const rays::PosedWorld& world) {
+  const auto below = met(world, view.eye, -up, walker.eye);
+  if (!below) return walker;
+  const float lacks = walker.eye - below->distance;
+  const bool low = lacks > 0.02f * walker.eye && met(world, view.eye, up, lacks + 0.06f * walker.eye);
+  return low ? Walker{std::max(below->distance, 0.1f * walker.eye)} : walker;
+}
+
 }  // namespace
 
 Walker walker_for(const scene::Bounds& bounds) {
@@ -134,6 +143,17 @@ Walker walker_for(const scene::Bounds& bounds) {
   if (!bounds.empty()) walker.eye = std::min(walker.eye, 0.6f * (bounds.max.y - bounds.min.y));
   walker.eye = std::max(walker.eye, 1e-5f);
   return walker;
+}
+
+std::optional<View> above_ground(const View& view, const rays::PosedWorld& world) {
+  constexpr int places = 32;
+  const auto ahead = met(world, view.eye, view.forward(), 1e30f);
+  const vec3 step = (ahead ? ahead->distance / places : 0.0f) * view.forward();
+  View out = view;
+  for (int i = 0; i < places; ++i, out.eye += step) {
+    if (met(world, out.eye, -up, 1e30f)) return out;
+  }
+  return {};
 }
 
 std::optional<View> stood(const View& view, const Walker& walker, const rays::PosedWorld& world) {
@@ -150,7 +170,7 @@ std::optional<View> stood(const View& view, const Walker& walker, const rays::Po
 
 View walked(const View& view, const vec2& way, const Walker& walker, const rays::PosedWorld& world,
             float seconds) {
-  const Body body{walker, world};
+  const Body body{bent(view, walker, world), world};
   View out = view;
   const vec3 right = on_level(view.right()), forward = on_level(glm::cross(up, right));
   const vec3 wanted = way.x * right + way.y * forward;

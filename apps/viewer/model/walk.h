@@ -20,6 +20,10 @@ struct Walker {
 /// Grown-up where the scene is as high as a room, smaller in smaller ones.
 Walker walker_for(const scene::Bounds& bounds);
 
+/// The view from the first place between its eye and what it looks at below which there is ground; none:
+/// there is no such place.
+std::optional<View> above_ground(const View& view, const rays::PosedWorld& world);
+
 /// The same view from the eye's height above the ground below it, or as high as there is room; perspective.
 /// None where nothing is below.
 std::optional<View> stood(const View& view, const Walker& walker, const rays::PosedWorld& world);

@@ -66,6 +66,17 @@ TEST_F(Menus, AFileThatIsThereIsReplacedOnceTheButtonIsPressedAgain) {
   EXPECT_FALSE(shows("Replace")) << "another file was asked about";
 }
 
+TEST_F(Menus, SavingTellsWhichLightGroupsTheFileLoses) {
+  app().edit("dim", [](Edits& e) { e.groups["room A ceiling"] = vec3(0.01f), e.groups["lamp"] = vec3(0); });
+  app().save_scene("kept.glb");
+  EXPECT_THAT(app().message, testing::EndsWith(dir_.path().string()));
+  app().edit("off", [](Edits& e) { e.groups["room A ceiling"] = vec3(0); });
+  for (const char* file : {"lost.glb", "other.ssphh.json"}) {
+    app().save_scene(file);
+    EXPECT_THAT(app().message, testing::HasSubstr("room A ceiling, at × 0, is no light group any more"));
+  }
+}
+
 TEST_F(Menus, SnapIsKeptForLaterSessions) {
   options_.preferences = dir_ / "config" / "preferences.json";
   start(1000, 1500);

@@ -106,6 +106,36 @@ TEST(Walk, FallsDownLedgesAndNotOutOfTheWorld) {
   EXPECT_FALSE(stood(look_at({8, 1, 0}, {9, 1, 0}, 1), ground.walker, ground.world));
 }
 
+TEST(Walk, GoesOnBentUnderALowCeilingAndStandsUpBeyondIt) {
+  const Ground ground({floor_of_ten, {{-5, 1.1f, -5}, {0, 1.2f, 5}}, {{-3, 0, -2}, {3, 3, -1}}});
+  const View low = *stood(look_at({-3, 0.5f, 0}, {1, 0.5f, 0}, 1), ground.walker, ground.world);
+  EXPECT_LT(low.eye.y, 1.1f);
+  const View on = ground.after(low, 1);
+  EXPECT_NEAR(on.eye.x, -3 + ground.walker.speed(), 0.1f);
+  EXPECT_NEAR(on.eye.y, low.eye.y, 0.02f);
+  const View wall = ground.after(turned(low, 0.5f * pi, 0), 5);
+  EXPECT_LT(wall.eye.z, low.eye.z) << "it goes there";
+  EXPECT_GT(wall.eye.z, -1) << "and stops before the wall";
+  const View beyond = ground.after(low, 4);
+  EXPECT_GT(beyond.eye.x, 1);
+  EXPECT_NEAR(beyond.eye.y, 1.65f, 0.01f);
+  EXPECT_GT(ground.after(turned(beyond, pi, 0), 4).eye.x, -0.1f) << "no longer under what is low";
+}
+
+TEST(Walk, BeginsOnTheGroundAheadWhereNoneIsBelow) {
+  const Ground ground({floor_of_ten, {{2, 0, -5}, {2.2f, 3, 5}}});
+  const auto at = [&](const vec3& eye, const vec3& toward) {
+    return above_ground(look_at(eye, toward, 1), ground.world);
+  };
+  const View here = look_at({1, 1, 0}, {2, 1, 0}, 1);
+  EXPECT_EQ(*above_ground(here, ground.world), here);
+  const auto ahead = at({-9, 2, 0}, {2, 1.5f, 0});
+  ASSERT_TRUE(ahead);
+  EXPECT_GE(ahead->eye.x, -5);
+  EXPECT_LT(ahead->eye.x, -4.5f) << "the first: 32 places on eleven metres";
+  EXPECT_FALSE(at({-9, 2, 0}, {-10, 2, 0})) << "it looks away";
+}
+
 TEST(Walk, PassesANarrowGap) {
   const Ground ground({floor_of_ten, {{2, 0, -5}, {2.2f, 3, -0.3f}}, {{2, 0, 0.3f}, {2.2f, 3, 5}}});
   EXPECT_GT(ground.after(ground.from({0, 0, 0.05f}), 4).eye.x, 3);
@@ -180,7 +210,7 @@ TEST_F(WalkInput, WithoutGroundItIsTold) {
   app().view = look_at({100, 1, 0}, {0, 1, 0}, 1);
   press({'V'});
   EXPECT_FALSE(app().walking);
-  EXPECT_EQ(app().message, "there is no ground below to walk on; go above some first");
+  EXPECT_EQ(app().message, "there is no ground to walk on, below or ahead; go above some first");
   app().view = look_at({-3.5f, 1, 0.5f}, {0, 1, 0.5f}, 1);
   press({'V'});
   app().view_along({0, 0, -1});
