@@ -15,7 +15,7 @@ namespace {
 
 class Frames : public GlStage {
  protected:
-  void prepare() override { options_.records = 0; }
+  void prepare() override { options_.records = 0, options_.settings = {{"exposure", "0"}}; }
   void ready() override {
     app().open("builtin:cornell");
     for (const float x : {0.0f, 0.4f}) {
@@ -42,6 +42,16 @@ TEST_F(Frames, AreWrittenOneByOneAndTheViewComesBack) {
   EXPECT_EQ(app().view, before);
   EXPECT_TRUE(app().follows_exposure);
   EXPECT_THAT(app().message, testing::HasSubstr("wrote 3 frames in "));
+}
+
+TEST_F(Frames, AreAsWholeAsAPictureThatStandsStill) {
+  export_frames(app(), "shots", 1);
+  ASSERT_TRUE(finish());
+  app().go_to(app().bookmarks.keys[0]);
+  turn();
+  ASSERT_TRUE(turn_until([&] { return app().settled(); }, [&] { turn(); }));
+  app().screenshot("still.png", false);
+  EXPECT_EQ(read_file("shots/frame-0000.png"), read_file("still.png")) << "edges are smooth";
 }
 
 TEST_F(Frames, EscapeStopsThem) {
