@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <ssphh/core/memory.h>
 #include <ssphh/pipeline/bake_scene.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/scene/query.h>
@@ -232,6 +233,24 @@ TEST_F(BakeChoices, StayWithinMemory) {
   add("as many as there are", 1, coarse(thousand + 99100 * 2.18e-6));
   add("half of the machine's", 1, coarse(0));
   test::expect_text_of("libs/pipeline/tests/expected/bake-memory.txt", text_);
+}
+
+TEST_F(BakeChoices, TakeHalfOfTheMachinesMemoryUnlessToldOtherwise) {
+  // With so many rays of a surfel that no machine holds as many surfels as are asked for
+  BakeSettings settings = cheap();
+  settings.op = LightOperator::surfel, settings.viz = VizMethod::none, settings.records = 0;
+  settings.transport.transport.link_rays = 4096, settings.transport.transport.most_surfels = 1 << 24;
+  const scene::Scene scene = box_with(1);
+  const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
+  const auto most_with = [&](double gigabytes) {
+    settings.max_memory = gigabytes;
+    const test::Logged logged;
+    return bake_scene(geometry, scene, 0, {.probes = "scene"}, settings, {}).set.baseline->most_surfels;
+  };
+  const int by_itself = most_with(0);
+  EXPECT_EQ(by_itself, bake::surfels_within(memory_of_machine() / 2, 4096));
+  EXPECT_LT(by_itself, 1 << 24);
+  EXPECT_EQ(most_with(3), bake::surfels_within(3'000'000'000, 4096));
 }
 
 TEST_F(BakeChoices, ArePosedAndPlacedAsAsked) {
