@@ -43,6 +43,13 @@ class ToolProcess {
       ::_exit(127);
     }
   }
+  /// A test that gives up leaves no tool behind, for which others would wait.
+  ~ToolProcess() {
+    if (waited_) return;
+    ::kill(pid_, SIGKILL);
+    ::waitpid(pid_, nullptr, 0);
+  }
+  ToolProcess(const ToolProcess&) = delete;
   void signal(int number) const { ::kill(pid_, number); }
   pid_t pid() const { return pid_; }
   bool running() const {
@@ -51,9 +58,10 @@ class ToolProcess {
            ended.si_pid == 0;
   }
   std::string stderr_so_far() const { return slurp(dir_ / "err"); }
-  /// Polls until stderr holds `text` or ten seconds have passed.
+  /// Polls until stderr holds `text` or a minute has passed: other programs may leave this one little of the
+  /// machine.
   bool wait_for_stderr(const std::string& text) const {
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < 6000; ++i) {
       if (stderr_so_far().find(text) != std::string::npos) return true;
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
@@ -62,6 +70,7 @@ class ToolProcess {
   ToolResult wait() {
     int status = 0;
     ::waitpid(pid_, &status, 0);
+    waited_ = true;
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), slurp(dir_ / "out"),
             slurp(dir_ / "err")};
   }
@@ -80,6 +89,7 @@ class ToolProcess {
 
   TempDir dir_;
   pid_t pid_;
+  bool waited_ = false;
 };
 
 inline ToolResult run_tool(const std::vector<std::string>& arguments) {
