@@ -118,7 +118,8 @@ TEST_F(GlTool, EveryKindOfWeightsIsDrawnAsTheCpuDoes) {
 TEST_F(GlTool, WithoutAProbeFileMakesTheProbesThatTheCpuMakes) {
   const TempDir dir;
   const auto render = [&](const std::vector<std::string>& more) {
-    return run_json(joined(joined({"render", "builtin:box", "--method", "ssphh", "--param", "probes=8", "-o",
+    return run_json(joined(joined({"render", "builtin:box", "--method", "ssphh", "--param", "probes=8",
+                                   "--param", "surfel_size=0.2", "--param", "directions=128", "-o",
                                    dir / "x.exr", "--spp", "16", "--aov", "indirect"},
                                   tiny),
                            more));

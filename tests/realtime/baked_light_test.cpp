@@ -13,6 +13,8 @@
 namespace ssphh {
 namespace {
 
+using scene::LightMode;
+
 constexpr test::PictureSize size{96, 54};
 
 /// The court under its sky, with a bulb.
@@ -27,31 +29,37 @@ scene::Scene court() {
   return scene;
 }
 
-probes::ProbeSet baked(const scene::Scene& scene, const std::vector<scene::LightMode>& modes,
-                       int points = 2048, int rays = 256) {
-  const trace::TransportScene source(scene);
-  bake::TransportBakeParams params;
-  params.transport.directions = 512;
-  params.transport.surfel_size = 0.2f;
-  params.records = {.points = points, .rays = rays, .baked = bake::baked_indices(modes)};
-  bake::TransportBakeReport report;
-  probes::ProbeSet set = bake::bake_transport(source, place::init_from_scene(scene, 4), params, report);
-  bake::set_light_modes(source, set, modes);
-  return set;
-}
+/// A bake of the court with modes of its groups, bulb and sky, and what lists its records for pictures.
+struct Bake {
+  Bake(const std::vector<LightMode>& modes, int points, int rays) {
+    const scene::Scene scene = court();
+    const trace::TransportScene source(scene);
+    bake::TransportBakeParams params;
+    params.transport.directions = 512;
+    params.transport.surfel_size = 0.2f;
+    params.records = {.points = points, .rays = rays, .baked = bake::baked_indices(modes)};
+    bake::TransportBakeReport report;
+    set = bake::bake_transport(source, place::init_from_scene(scene, 4), params, report);
+    bake::set_light_modes(source, set, modes);
+    lists = test::listed(scene, set.surface->points, trace::PathTracer(scene));
+  }
+  probes::ProbeSet set;
+  probes::SurfaceLists lists;
+};
 
-const std::vector<scene::LightMode> sky_baked = {scene::LightMode::realtime, scene::LightMode::baked},
-                                    sky_diffuse = {scene::LightMode::realtime, scene::LightMode::diffuse};
+const Bake& sky_diffuse() {
+  static const Bake bake({LightMode::realtime, LightMode::diffuse}, 2048, 256);
+  return bake;
+}
 
 using BakedLight = test::WithGl;
 
 struct Drawn {
-  Drawn(gl::Context& gl, const scene::Scene& scene_in, const probes::ProbeSet& set)
-      : scene(scene_in), renderer(gl, scene, test::small_maps) {
+  /// With `set`, whose records the lists are of.
+  Drawn(gl::Context& gl, const probes::ProbeSet& set, const probes::SurfaceLists& lists)
+      : scene(court()), renderer(gl, scene, test::small_maps) {
     renderer.set_probes(set);
-    const trace::PathTracer tracer(scene);
-    const auto sees = [&](const vec3& a, const vec3& b) { return tracer.visible(a, b); };
-    renderer.set_records(probes::prepare_surfaces(scene, 0, set.surface->points, sees));
+    renderer.set_records(lists);
     renderer.set_record_light(set.surface->light);
   }
   image::Image picture(realtime::View view = realtime::View::lit) {
@@ -69,19 +77,28 @@ struct Drawn {
   realtime::FrameStats stats;
 };
 
-void expect_drawn_as_traced(gl::Context& gl, const probes::ProbeSet& set) {
+/// Of the court, by paths.
+const image::Image& truth_of_court() {
+  static const image::Image truth = [] {
+    const scene::Scene scene = court();
+    trace::RenderParams params;
+    params.width = size.width, params.height = size.height;
+    params.camera = scene::camera_pose(scene, "");
+    params.path = {.max_depth = 12, .passes = 1, .spp = 16, .seed = 1};  // 82,944 paths
+    trace::RenderState state;
+    trace::PathTracer(scene).render(params, state);
+    return trace::resolve(state.color, state.passes_done);
+  }();
+  return truth;
+}
+
+void expect_drawn_as_traced(gl::Context& gl, const Bake& bake) {
   const scene::Scene scene = court();
-  const image::Image drawn = Drawn(gl, scene, set).picture();
+  const image::Image drawn = Drawn(gl, bake.set, bake.lists).picture();
   const trace::PathTracer tracer(scene);
-  const auto lookup = probes::make_lookup(probes::LookupSpec(), set, tracer);
-  const image::Image traced = test::traced(scene, lookup.get(), size, 16, 1, tracer);
-  trace::RenderParams params;
-  params.width = size.width, params.height = size.height;
-  params.camera = scene::camera_pose(scene, "");
-  params.path = {.max_depth = 12, .passes = 1, .spp = 64, .seed = 1};
-  trace::RenderState state;
-  tracer.render(params, state);
-  const image::Image truth = trace::resolve(state.color, state.passes_done);
+  const auto lookup = probes::make_lookup(probes::LookupSpec(), bake.set, tracer);
+  const image::Image traced = test::traced(scene, lookup.get(), size, 16, 1, tracer),
+                     &truth = truth_of_court();
   vec3 sums[3] = {vec3(0), vec3(0), vec3(0)};
   double off = 0;
   for (int y = 0; y < size.height; ++y) {
@@ -98,20 +115,18 @@ void expect_drawn_as_traced(gl::Context& gl, const probes::ProbeSet& set) {
 }
 
 TEST_F(BakedLight, IsDrawnAsItIsTraced) {
-  expect_drawn_as_traced(gl(), baked(court(), sky_baked));
+  expect_drawn_as_traced(gl(), Bake({LightMode::realtime, LightMode::baked}, 2048, 256));
 }
 
 TEST_F(BakedLight, OfADiffuseSkyIsDrawnAsItIsTraced) {
-  expect_drawn_as_traced(gl(), baked(court(), sky_diffuse));
+  expect_drawn_as_traced(gl(), sky_diffuse());
 }
 
 TEST_F(BakedLight, OfADiffuseSkyIsSampledWhereRecordsDoNotLight) {
-  const scene::Scene scene = court();
-  const probes::ProbeSet set = baked(scene, sky_diffuse);
-  probes::ProbeSet realtime = set;
-  realtime.light_groups[1].mode = scene::LightMode::realtime;
-  probes::merge_groups(realtime);
-  Drawn some(gl(), scene, set), all(gl(), scene, realtime);
+  probes::ProbeSet undone = sky_diffuse().set;
+  undone.light_groups[1].mode = LightMode::realtime;
+  probes::merge_groups(undone);
+  Drawn some(gl(), sky_diffuse().set, sky_diffuse().lists), all(gl(), undone, sky_diffuse().lists);
   const auto drawn = [](Drawn& by, probes::WeightMethod weights, bool indirect) {
     realtime::FrameSettings settings;
     settings.weights = weights;
@@ -137,23 +152,22 @@ TEST_F(BakedLight, OfADiffuseSkyIsSampledWhereRecordsDoNotLight) {
   EXPECT_NEAR(mean(kept) / mean(sampled), 1, 0.04);
   EXPECT_NE(kept.pixels, sampled.pixels);
   // So it is while the set says that the sky is another than it was
-  some.renderer.set_kept_light(realtime);
-  some.renderer.set_record_light(realtime.surface->light);
+  some.renderer.set_kept_light(undone);
+  some.renderer.set_record_light(undone.surface->light);
   EXPECT_EQ(drawn(some, probes::WeightMethod::surface, true).pixels, sampled.pixels);
 }
 
 TEST_F(BakedLight, NeedsNoShadowMapsUntilItIsNotBaked) {
-  const scene::Scene scene = court();
-  const probes::ProbeSet of_sky = baked(scene, sky_baked, 256, 64);
-  probes::ProbeSet set = of_sky;
-  Drawn some(gl(), scene, set);
+  const Bake of_sky({LightMode::realtime, LightMode::baked}, 256, 64);
+  probes::ProbeSet set = of_sky.set;
+  Drawn some(gl(), set, of_sky.lists);
   some.picture();
   const int with_baked = some.stats.shadow_maps_drawn;
   const image::Image direct = some.picture(realtime::View::direct);
   // The same probes, and the sky sampled again: its maps are drawn now.
-  set.light_groups[1].mode = scene::LightMode::realtime;
+  set.light_groups[1].mode = LightMode::realtime;
   probes::merge_groups(set);
-  Drawn all(gl(), scene, set);
+  Drawn all(gl(), set, of_sky.lists);
   all.picture();
   constexpr int sky_maps = 32;  // RendererParams::environment_samples
   EXPECT_EQ(all.stats.shadow_maps_drawn - with_baked, sky_maps);
@@ -170,7 +184,7 @@ TEST_F(BakedLight, NeedsNoShadowMapsUntilItIsNotBaked) {
   }
   EXPECT_GT(more, 0);
   // Without the probes the sky must light again.
-  some.renderer.set_probes(of_sky);
+  some.renderer.set_probes(of_sky.set);
   some.renderer.clear_probes();
   const image::Image without = some.picture(realtime::View::direct);
   for (std::size_t i = 0; i < of_all.pixels.size(); ++i)

@@ -109,10 +109,15 @@ inline probes::SurfaceRecords made_up_records(const std::vector<rays::SurfacePoi
   return records;
 }
 
+inline probes::SurfaceLists listed(const scene::Scene& scene, const std::vector<rays::SurfacePoint>& points,
+                                   const trace::PathTracer& tracer) {
+  return probes::prepare_surfaces(scene, 0, points,
+                                  [&](const vec3& a, const vec3& b) { return tracer.visible(a, b); });
+}
+
 inline void set_records(realtime::Renderer& renderer, const scene::Scene& scene,
                         const probes::SurfaceRecords& records, const trace::PathTracer& tracer) {
-  renderer.set_records(probes::prepare_surfaces(
-      scene, 0, records.points, [&](const vec3& a, const vec3& b) { return tracer.visible(a, b); }));
+  renderer.set_records(listed(scene, records.points, tracer));
   renderer.set_record_light(records.light);
 }
 

@@ -163,7 +163,7 @@ TEST_F(RendererTest, FittedWeightsDoNotLeakThroughAShutDoor) {
   probes::merge_groups(set);
   Renderer renderer(gl(), scene_);
   renderer.set_probes(set);
-  renderer.set_fitted(test::prepared(scene_, test::made_up_fit(scene_, set, 1200), tracer));
+  renderer.set_fitted(test::prepared(scene_, test::made_up_fit(scene_, set, 400), tracer));
   EXPECT_GT(brightness(renderer, "room-a", View::indirect), 0.1);
   frame(renderer);
   renderer.draw(scene::camera_pose(scene_, "room-b"), {.view = View::indirect},
@@ -177,7 +177,7 @@ TEST_F(RendererTest, FittedWeightsDoNotLeakThroughAShutDoor) {
 TEST_F(RendererTest, NewLightOfAProbeCostsThePointsThatItLightsAlone) {
   const probes::ProbeSet set = test::made_up_probes(scene_);
   const trace::PathTracer tracer(scene_);
-  const probes::FittedPoints fitted = test::made_up_fit(scene_, set, 600);
+  const probes::FittedPoints fitted = test::made_up_fit(scene_, set, 200);
   std::size_t lit_by_it = 0;
   for (const probes::PointWeights& weights : fitted.weights) {
     for (const probes::ProbeWeight& weight : weights.used()) lit_by_it += weight.probe == 0;
@@ -224,7 +224,12 @@ TEST_F(RendererTest, RecordsLightSurfacesUntilFittedPointsTakeTheirPlace) {
   renderer.set_probes(set);
   const auto by_probes = picture(probes::WeightMethod::mls);
   EXPECT_EQ(picture(probes::WeightMethod::surface), by_probes) << "there are none";
-  test::set_records(renderer, scene_, records, tracer);
+  const probes::SurfaceLists lists = test::listed(scene_, records.points, tracer);
+  const auto set_records = [&] {
+    renderer.set_records(lists);
+    renderer.set_record_light(records.light);
+  };
+  set_records();
   const auto by_records = picture(probes::WeightMethod::surface);
   EXPECT_NE(by_records, by_probes);
   EXPECT_EQ(picture(probes::WeightMethod::mls), by_probes) << "asked for";
@@ -255,7 +260,7 @@ TEST_F(RendererTest, RecordsLightSurfacesUntilFittedPointsTakeTheirPlace) {
   EXPECT_NE(by_weights, by_probes);
   EXPECT_THROW(renderer.set_record_light(records.light), Error);
   renderer.set_probes(set);
-  test::set_records(renderer, scene_, records, tracer);
+  set_records();
   EXPECT_EQ(picture(probes::WeightMethod::surface), by_records);
   renderer.set_records({});
   EXPECT_EQ(picture(probes::WeightMethod::surface), picture(probes::WeightMethod::mls));

@@ -16,13 +16,14 @@ namespace ssphh::test {
 namespace {
 
 /// Pixels of the red channel of a small picture from the scene's own camera.
-Samples picture(const scene::Scene& scene, int max_depth, float time = 0, std::uint64_t seed = 1) {
+Samples picture(const scene::Scene& scene, const trace::PathTracer& tracer, int max_depth,
+                std::uint64_t seed = 1) {
   trace::RenderParams params;
   params.width = 32, params.height = 18;
-  params.camera = scene::camera_pose(scene, "", time);
+  params.camera = scene::camera_pose(scene, "");
   params.path = {max_depth, 1, 16, seed};
   trace::RenderState state;
-  trace::PathTracer(scene, time).render(params, state);
+  tracer.render(params, state);
   Samples samples;
   for (std::size_t i = 0; i < state.color.pixels.size(); i += 3)
     samples.add(static_cast<double>(state.color.pixels[i]));
@@ -31,12 +32,13 @@ Samples picture(const scene::Scene& scene, int max_depth, float time = 0, std::u
 
 TEST(PathScenes, BuiltinBoxGivesTheGeometricSum) {
   const scene::Scene box = scene::make_builtin("box");
+  const trace::PathTracer tracer(box);
   double expected = 0;
   for (int n = 0; n <= 4; ++n) {
     expected += std::pow(0.5, n);
-    EXPECT_TRUE(mean_is(picture(box, n), expected, {1e-3, 6}, 2e-6)) << "depth " << n;
+    EXPECT_TRUE(mean_is(picture(box, tracer, n), expected, {1e-3, 6}, 2e-6)) << "depth " << n;
   }
-  EXPECT_TRUE(mean_is(picture(box, 1 << 20), 2, {1e-3, 6}, 2e-6));
+  EXPECT_TRUE(mean_is(picture(box, tracer, 1 << 20), 2, {1e-3, 6}, 2e-6));
 }
 
 TEST(PathScenes, ProbeInTheBuiltinBoxHoldsBandZeroOnly) {
@@ -106,10 +108,11 @@ TEST(PathScenes, RoomBehindAShutDoorIsBlackAndLitWhenItOpens) {
 TEST(PathScenes, TurningSceneAndCameraTogetherChangesNothing) {
   const scene::Scene scene = scene::make_builtin("gallery1");
   const scene::Scene tilted = turned(scene, glm::normalize(quat(0.8f, 0.3f, -0.4f, 0.2f)));
+  const trace::PathTracer of_scene(scene), of_tilted(tilted);
   Samples before, after;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    before.add(picture(scene, 3, 0, seed).mean());
-    after.add(picture(tilted, 3, 0, 1000 + seed).mean());
+    before.add(picture(scene, of_scene, 3, seed).mean());
+    after.add(picture(tilted, of_tilted, 3, 1000 + seed).mean());
   }
   EXPECT_GT(before.mean(), 0.001);
   EXPECT_TRUE(means_agree(before, after, {1e-3, 1}, 1e-5 * before.mean()));
@@ -123,7 +126,7 @@ TEST(PathScenes, HotelRoomInMillimetresFarAwayRendersWithoutAcne) {
   scene::Environment sky;
   scene.environment = sky;
   // Everything under a sky of 1 reflects no more than 1: acne would darken, leaks cannot brighten.
-  const Samples samples = picture(scene, 1);
+  const Samples samples = picture(scene, trace::PathTracer(scene), 1);
   EXPECT_GT(samples.mean(), 0.02);
   EXPECT_LT(samples.mean(), 1.01);
 }

@@ -41,76 +41,85 @@ double difference(const Functions& a, const Functions& b) {
   return std::sqrt(squares / scale);
 }
 
-/// What a session of the scene finds: `ask` gives the probes' functions.
-template <class Ask>
-Functions in_session(const scene::Scene& scene, float surfel_size, int directions, const Ask& ask) {
+/// Probes' functions of one network, by who makes them.
+struct Found {
+  Functions surfel, bounce, sphl;
+};
+
+/// What a session of the scene, turned, finds with surfels of that size and so many directions.
+Found found_in(const scene::Scene& scene, const quat& turn, float surfel_size, int directions) {
   const trace::TransportScene source(scene);
   transport::RelightParams params;
   params.transport.surfel_size = surfel_size;
   params.transport.directions = directions;
   params.transport.link_rays = 64;
+  params.warm_start = false;
   LitSession session(source, places_of(scene), params);
-  return ask(session, source);
+  session.update();
+  Found found;
+  found.surfel = session.reflected();
+  // With weights that know no axes: the tents of `trilinear` stand along them.
+  transport::BounceParams bounce;
+  bounce.weights.method = probes::WeightMethod::mls;
+  transport::BounceOperator(session.network(), source, 4, bounce).solve(session.patch_direct(), found.bounce);
+  // `matrix`: one probe emits a lobe that turns with the scene; all other light is off.
+  sh::RadianceSh lobe(3);
+  for (std::size_t k = 0; k < lobe.values.size(); ++k)
+    lobe.values[k] = vec3(k == 0 ? 3.0f : 0.9f / static_cast<float>(k), 1.0f, 0.5f);
+  for (int g = 0; g < static_cast<int>(source.light_groups().size()); ++g)
+    session.state.group_scales[g] = vec3(0);
+  session.shine(0, sh::rotate(lobe, turn));
+  session.update();
+  found.sphl = session.reflected();
+  return found;
+}
+
+/// A scene as it is, with other sizes and counts, and turned.
+struct Turned {
+  Found base;
+  std::vector<Found> others, tilted;
+};
+
+const Turned& turned_cornell() {
+  static const Turned all = [] {
+    const scene::Scene scene = scene::make_builtin("cornell");
+    const quat none(1, 0, 0, 0);
+    Turned out{found_in(scene, none, 0.15f, 2048), {}, {}};
+    const std::pair<float, int> others[] = {{0.14f, 2000}, {0.16f, 2100}, {0.145f, 2160}, {0.155f, 1930}};
+    for (const auto& [size, directions] : others)
+      out.others.push_back(found_in(scene, none, size, directions));
+    for (const quat& turn : turns) out.tilted.push_back(found_in(turned(scene, turn), turn, 0.15f, 2048));
+    return out;
+  }();
+  return all;
 }
 
 /// Turning draws voxels, directions and rays anew. So do other sizes and counts: their mean difference says
-/// how much that may be, and single ones differ from it by less than half. `ask(session, source, turn)`.
-template <class Ask>
-void expect_to_turn_with_the_scene(const Ask& ask) {
-  const scene::Scene scene = scene::make_builtin("cornell");
-  const auto found = [&](const quat& turn, float size, int directions) {
-    return in_session(
-        turned(scene, turn), size, directions,
-        [&](LitSession& session, const rays::TransportSource& source) { return ask(session, source, turn); });
-  };
-  const quat none(1, 0, 0, 0);
-  const Functions base = found(none, 0.15f, 2048);
+/// how much that may be, and single ones differ from it by less than half.
+void expect_to_turn_with_the_scene(Functions Found::*functions) {
+  const Turned& all = turned_cornell();
+  const Functions& base = all.base.*functions;
   double sampling = 0;
-  const std::pair<float, int> others[] = {{0.14f, 2000}, {0.16f, 2100}, {0.145f, 2160}, {0.155f, 1930}};
-  for (const auto& [size, directions] : others)
-    sampling += difference(found(none, size, directions), base) / 4;
+  for (const Found& other : all.others)
+    sampling += difference(other.*functions, base) / static_cast<double>(all.others.size());
   EXPECT_LT(sampling, 0.05);
-  for (const quat& turn : turns) {
-    const Functions tilted = found(turn, 0.15f, 2048);
-    EXPECT_LT(difference(turned_back(tilted, turn), base), 1.5 * sampling);
+  for (std::size_t i = 0; i < std::size(turns); ++i) {
+    const Functions& tilted = all.tilted[i].*functions;
+    EXPECT_LT(difference(turned_back(tilted, turns[i]), base), 1.5 * sampling);
     EXPECT_GT(difference(tilted, base), 0.3) << "not turned back, it is another";
   }
 }
 
 TEST(TransportRotation, SurfelProbesTurnWithTheSceneBeyondSamplingOnly) {
-  expect_to_turn_with_the_scene(
-      [](LitSession& session, const rays::TransportSource&, const quat&) -> Functions {
-        session.update();
-        return session.reflected();
-      });
+  expect_to_turn_with_the_scene(&Found::surfel);
 }
 
 TEST(TransportRotation, BounceProbesTurnWithTheSceneBeyondSamplingOnly) {
-  // With weights that know no axes: the tents of `trilinear` stand along them.
-  expect_to_turn_with_the_scene([](LitSession& session, const rays::TransportSource& source,
-                                   const quat&) -> Functions {
-    session.update();
-    transport::BounceParams params;
-    params.weights.method = probes::WeightMethod::mls;
-    Functions reflected;
-    transport::BounceOperator(session.network(), source, 4, params).solve(session.patch_direct(), reflected);
-    return reflected;
-  });
+  expect_to_turn_with_the_scene(&Found::bounce);
 }
 
 TEST(TransportRotation, SphlsThatAreLightsTurnWithTheScene) {
-  // `matrix`: one probe emits a lobe that turns with the scene; all other light is off.
-  sh::RadianceSh lobe(3);
-  for (std::size_t k = 0; k < lobe.values.size(); ++k)
-    lobe.values[k] = vec3(k == 0 ? 3.0f : 0.9f / static_cast<float>(k), 1.0f, 0.5f);
-  expect_to_turn_with_the_scene(
-      [&](LitSession& session, const rays::TransportSource& source, const quat& turn) -> Functions {
-        for (int g = 0; g < static_cast<int>(source.light_groups().size()); ++g)
-          session.state.group_scales[g] = vec3(0);
-        session.shine(0, sh::rotate(lobe, turn));
-        session.update();
-        return session.reflected();
-      });
+  expect_to_turn_with_the_scene(&Found::sphl);
 }
 
 TEST(TransportRotation, CoefficientHierarchyDependsOnTheAxes) {

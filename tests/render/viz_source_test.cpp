@@ -67,7 +67,7 @@ TEST(VizSource, PAroundAPillarChangesByLessThanTwoPercentInEachColourWhenTheRadi
     scene::validate(scene);
     return scene;
   };
-  const bake::BakeParams params = effort(24, 48, 3);
+  const bake::BakeParams params = effort(16, 32, 3);
   const probes::ProbeSet large = traced(pillar_room(0.1f), params),
                          small = traced(pillar_room(0.05f), params);
   const scene::Scene room = pillar_room(0.1f);

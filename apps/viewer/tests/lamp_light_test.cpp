@@ -48,7 +48,7 @@ TEST_F(LampLight, OfAddedOnesIsThatOfPathTracing) {
   EXPECT_GT(probe(), 0.01f) << "relit";
   EXPECT_EQ(app().light.origin(), "live");
   // Path tracing has the lamp, too, with its cone and its shadows.
-  play("set truth-spp 64\nset show absolute");
+  play("set truth-spp 16\nset show absolute");
   const metrics::ImageError error = app().picture.shown_difference()->error;
   for (const double ratio : error.mean_ratio) EXPECT_NEAR(ratio, 1, 0.12);
   play("set show realtime");
@@ -71,7 +71,7 @@ TEST_F(LampLight, OfAddedOnesIsThatOfPathTracing) {
 
 TEST_F(LampLight, EveryKindIsDrawnAsItIsTraced) {
   app().open("builtin:two-rooms");
-  play("light lamp off\ncamera room-b\nset truth-spp 48\nset truth-depth 1");
+  play("light lamp off\ncamera room-b\nset truth-spp 12\nset truth-depth 1");
   for (const scene::LightType type :
        {scene::LightType::point, scene::LightType::spot, scene::LightType::sphere, scene::LightType::sphl,
         scene::LightType::rectangle, scene::LightType::disc}) {

@@ -14,9 +14,17 @@
 namespace ssphh::viewer {
 namespace {
 
+LiveLightParams few_directions() {
+  LiveLightParams params;
+  params.relight.transport = {.directions = 32, .surfel_size = 0.5f, .link_rays = 8};
+  params.relight.degree = 2;
+  params.relight.records.points = 256;
+  return params;
+}
+
 TEST(LiveLight, AnOpenedDoorLightsRoomB) {
   const Document document = make_document("rooms", scene::make_builtin("two-rooms"), 0);
-  LiveLightParams params;
+  LiveLightParams params = few_directions();
   for (const scene::ProbePlace& place : scene::sphl_places(*document.scene, 0))
     params.places.push_back({place.name, place.position, place.radius});
   LiveLight light(document.scene, params, 0);
@@ -36,14 +44,6 @@ TEST(LiveLight, AnOpenedDoorLightsRoomB) {
   light.refresh(set);
   EXPECT_GT(mean(3), 0.02f * mean(0));
   EXPECT_EQ(set, light.probes()) << "refreshing equals making anew";
-}
-
-LiveLightParams few_directions() {
-  LiveLightParams params;
-  params.relight.transport = {.directions = 32, .surfel_size = 0.5f, .link_rays = 8};
-  params.relight.degree = 2;
-  params.relight.records.points = 256;
-  return params;
 }
 
 TEST(LiveLight, FollowsLampsAndFactorsAsASessionDoes) {
