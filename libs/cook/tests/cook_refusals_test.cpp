@@ -6,6 +6,7 @@
 
 #include "cooked_room.h"
 #include "error_message.h"
+#include "expected_text.h"
 
 namespace ssphh::test {
 namespace {
@@ -19,8 +20,11 @@ TEST(Cook, RefusesWhatItCannotCook) {
   const TriangleSource source(scene);
   const cook::CookScene cook_scene{scene, source};
   const probes::ProbeSet set = set_of_two_rooms(OnSurfaces::records, 2);
+  std::string told;  // whole, with advice
   const auto problem = [&](const probes::ProbeSet& s, const cook::CookParams& params, bool posed = true) {
-    return message_of([&] { cook::cook(s, posed ? &cook_scene : nullptr, params); });
+    const std::string said = message_of([&] { cook::cook(s, posed ? &cook_scene : nullptr, params); });
+    if (said != "no error") told += said + "\n";
+    return said;
   };
   for (const int texels : {0, 8, 256}) EXPECT_EQ(problem(set, {texels}, false), "no error") << texels;
   for (const int texels : {-1, 7, 257})
@@ -41,6 +45,7 @@ TEST(Cook, RefusesWhatItCannotCook) {
   const probes::ProbeSet without = set_of_two_rooms(OnSurfaces::nothing, 2);
   EXPECT_THAT(problem(without, {16, &set}), HasSubstr("only one of the two"));
   EXPECT_EQ(problem(set, {16, &set}), "no error");
+  expect_text_of("libs/cook/tests/expected/refusals.txt", told);
 }
 
 TEST(Cook, IsTheSameWhateverTheNumberOfThreads) {

@@ -18,9 +18,11 @@ namespace ssphh::gl {
 namespace {
 
 using testing::AllOf;
+using testing::AnyOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::StartsWith;
 
 /// Messages logged while it lives.
@@ -66,6 +68,13 @@ int integer(GLenum name) {
   GLint value = -1;
   glGetIntegerv(name, &value);
   return value;
+}
+
+/// Where there is no context all other tests are skipped: one that was made and is not given would silence
+/// them.
+TEST(GlContextHeadless, IsGivenUnlessEachDeviceHasAProblem) {
+  const std::string said = test::message_of([] { Context::headless(); });
+  EXPECT_THAT(said, Not(AnyOf(HasSubstr(": ,"), HasSubstr(": )"))));
 }
 
 TEST_F(GlContext, SaysWhatTheDriverSays) {
