@@ -1,8 +1,13 @@
-# Read by ctest: an entry NAME.SUITE for each suite that `program` lists. What each test did lies in results/NAME.SUITE.xml
-# afterwards (scripts/test_summary.py).
+# Read by ctest: an entry NAME.SUITE for each suite that `program` lists, or one for all `together`. What each test did lies in
+# results/ENTRY.xml afterwards (scripts/test_summary.py).
 set(suites "${program}.suites")
 if(NOT EXISTS ${program})
   add_test(${name} ${program})  # fails, and says that it is not built
+  return()
+endif()
+if(together)
+  add_test(${name} ${program} --gtest_output=xml:${results}/${name}.xml)
+  set_tests_properties(${name} PROPERTIES TIMEOUT 600)
   return()
 endif()
 if(${program} IS_NEWER_THAN ${suites})

@@ -7,61 +7,28 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <ssphh/bake/transport_bake.h>
-#include <ssphh/place/init.h>
 #include <ssphh/probes/hier.h>
-#include <ssphh/scene/builtin.h>
 #include <ssphh/study/surface_points.h>
 #include <ssphh/trace/path_tracer.h>
-#include <ssphh/trace/transport_scene.h>
 
 #include "cooked_reference.h"
-#include "cooked_room.h"
+#include "real_bake.h"
 
 namespace ssphh::test {
 namespace {
 
-/// Room B of two-rooms is dark: a lamp of another group there, and two probes' light has two sources.
-scene::Scene lit_two_rooms() {
-  scene::Scene scene = scene::make_builtin("two-rooms");
-  scene::Light lamp = scene.lights.at(0);
-  lamp.name = lamp.group = "lamp B";
-  scene::Node node = scene.nodes.at(static_cast<std::size_t>(lamp.node));
-  node.name = lamp.name;
-  node.local.translation.x = -node.local.translation.x;
-  lamp.node = static_cast<int>(scene.nodes.size());
-  lamp.color = vec3(0.5f, 1, 2);
-  scene.nodes.push_back(node);
-  scene.lights.push_back(lamp);
-  return scene;
-}
-
-struct Baked {
-  explicit Baked(scene::Scene s, bool records = true) : scene(std::move(s)), source(scene), tracer(scene) {
-    // Few rays: the file is compared with what it was made of, not with a truth.
-    bake::TransportBakeParams params;
-    params.transport.surfels_per_radius = 8;
-    params.transport.directions = 128;
-    params.transport.link_rays = 16;
-    params.records = {.points = records ? 600 : 0, .rays = 64};
-    params.fit = !records;
-    bake::TransportBakeReport report;
-    set = bake::bake_transport(source, place::init_from_scene(scene, 5), params, report);
-    const cook::CookScene cook_scene{scene, source};
-    file.emplace(cook::cook(set, &cook_scene).bytes);
-    std::vector<vec3> origins;
-    for (const probes::Probe& probe : set.probes) origins.push_back(probe.position);
+/// A bake's file of its own, and the places where both are asked.
+struct Asked {
+  explicit Asked(const RealBake& of) : bake(of), tracer(of.scene), file(of.bytes) {
     // Not in the slots behind pictures, narrower than points are apart, where lists tell little
-    surfaces = study::reachable_points(source, origins, 0, {1500, 5, 0.1f});
-    open = study::points_in_the_open(source, surfaces, 0, 5);
+    surfaces = study::reachable_points(bake.source, bake.origins(), 0, {1500, 5, 0.1f});
+    open = study::points_in_the_open(bake.source, surfaces, 0, 5);
     for (rays::SurfacePoint& at : open) at.moves = true;
   }
 
-  scene::Scene scene;
-  trace::TransportScene source;
+  const RealBake& bake;
   trace::PathTracer tracer;
-  probes::ProbeSet set;
-  std::optional<OpenedFile> file;
+  OpenedFile file;
   std::vector<rays::SurfacePoint> surfaces, open;
 };
 
@@ -89,27 +56,27 @@ struct Differences {
 
 class CookedBake : public testing::TestWithParam<std::string> {
  protected:
-  /// Both tests look into one bake of each.
-  static const Baked& baked() {
-    static std::map<std::string, Baked> bakes;
+  /// Both tests look at the same places.
+  static const Asked& asked() {
+    static std::map<std::string, Asked> known;
+    if (const auto found = known.find(GetParam()); found != known.end()) return found->second;
     const std::string name = GetParam().substr(0, GetParam().find('_'));
-    if (const auto found = bakes.find(GetParam()); found != bakes.end()) return found->second;
-    return bakes
-        .try_emplace(GetParam(), name == "rooms" ? lit_two_rooms() : scene::make_builtin(name), records())
+    return known
+        .try_emplace(GetParam(), real_bake(name, records() ? OnSurfaces::records : OnSurfaces::fitted))
         .first->second;
   }
   static bool records() { return GetParam().find("fitted") == std::string::npos; }
 };
 
 TEST_P(CookedBake, GivesWhatItsFormulaSays) {
-  const Baked& baked = CookedBake::baked();
-  const CookedReference reference(baked.scene, baked.source, baked.set, cook::CookParams{}.sight_size);
+  const RealBake& bake = asked().bake;
+  const CookedReference reference(bake.scene, bake.source, bake.set, cook::CookParams{}.sight_size);
   std::size_t by_points = 0;
-  for (const rays::SurfacePoint& at : baked.surfaces) by_points += reference.by_points(at);
-  EXPECT_GT(by_points, baked.surfaces.size() / 2);
+  for (const rays::SurfacePoint& at : asked().surfaces) by_points += reference.by_points(at);
+  EXPECT_GT(by_points, asked().surfaces.size() / 2);
   // Where a distance lies next to the one asked for, its 16 bits may decide otherwise than the ray
-  for (const auto& places : {baked.surfaces, baked.open}) {
-    const Differences found(*baked.file, reference, places);
+  for (const auto& places : {asked().surfaces, asked().open}) {
+    const Differences found(asked().file, reference, places);
     // Points that blend probes hold bands over 2 at their own normals alone
     EXPECT_LT(found.within(0.99), records() ? 2e-5 : 0.02);
     EXPECT_LT(found.within(0.5), 2e-5);
@@ -118,9 +85,8 @@ TEST_P(CookedBake, GivesWhatItsFormulaSays) {
 }
 
 TEST_P(CookedBake, IsNearTheFullLookup) {
-  const Baked& baked = CookedBake::baked();
-  const probes::IrradianceLookup full(baked.set, baked.tracer);
-  const Differences surfaces(*baked.file, full, baked.surfaces), open(*baked.file, full, baked.open);
+  const probes::IrradianceLookup full(asked().bake.set, asked().tracer);
+  const Differences surfaces(asked().file, full, asked().surfaces), open(asked().file, full, asked().open);
   RecordProperty("surfaces", fmt::format("ratio {:.4f}, half {:.2g}, 90 % {:.2g}", surfaces.ratio,
                                          surfaces.within(0.5), surfaces.within(0.9)));
   RecordProperty("open", fmt::format("ratio {:.4f}, half {:.2g}, 90 % {:.2g}", open.ratio, open.within(0.5),
@@ -138,26 +104,27 @@ INSTANTIATE_TEST_SUITE_P(Of, CookedBake, testing::Values("cornell", "rooms", "ga
                          [](const auto& of) { return of.param; });
 
 TEST(CookedBakes, LightOfOtherLampsIsSwappedInAtTheSamePlaces) {
-  const Baked day(lit_two_rooms());
+  const RealBake& day = real_bake("rooms");
+  OpenedFile file(day.bytes);
   scene::Scene lamps = lit_two_rooms();
   // A darker lamp at the same place may ask for records at the same places, too
   lamps.lights[0].color *= vec3(0.2f, 0.1f, 0.05f);
   lamps.nodes.at(static_cast<std::size_t>(lamps.lights[0].node)).local.translation += vec3(0.5f, -0.5f, 0.8f);
-  const Baked evening(lamps);
+  const RealBake evening(lamps, OnSurfaces::records);
+  const Asked asked(evening);
   const auto swap = [&](const std::vector<std::byte>& bytes) {
-    return ssphh_runtime_swap_light(day.file->runtime, bytes.data(), bytes.size());
+    return ssphh_runtime_swap_light(file.runtime, bytes.data(), bytes.size());
   };
-  EXPECT_EQ(swap(evening.file->bytes()), SSPHH_RUNTIME_OTHER_GEOMETRY)
-      << "records stand where light asks for them";
+  EXPECT_EQ(swap(evening.bytes), SSPHH_RUNTIME_OTHER_GEOMETRY) << "records stand where light asks for them";
   const cook::CookScene cook_scene{evening.scene, evening.source};
   cook::CookParams params;
   params.places = &day.set;
   const std::vector<std::byte> at_places = cook::cook(evening.set, &cook_scene, params).bytes;
   ASSERT_EQ(swap(at_places), SSPHH_RUNTIME_OK);
-  for (const rays::SurfacePoint& at : evening.open)
-    EXPECT_EQ(day.file->irradiance(at), evening.file->irradiance(at)) << "probes have no other places";
-  const probes::IrradianceLookup full(evening.set, evening.tracer);
-  const Differences surfaces(*day.file, full, evening.surfaces);
+  for (const rays::SurfacePoint& at : asked.open)
+    EXPECT_EQ(file.irradiance(at), asked.file.irradiance(at)) << "probes have no other places";
+  const probes::IrradianceLookup full(evening.set, asked.tracer);
+  const Differences surfaces(file, full, asked.surfaces);
   EXPECT_LT(surfaces.within(0.5), 0.01);
   EXPECT_LT(surfaces.within(0.9), 0.05);
   EXPECT_NEAR(surfaces.ratio, 1, 0.01);
@@ -165,16 +132,17 @@ TEST(CookedBakes, LightOfOtherLampsIsSwappedInAtTheSamePlaces) {
 
 TEST(CookedBakes, OtherScalesAreNearTheRelitSet) {
   // The window of each probe is that of the bake's scales
-  Baked baked(scene::make_builtin("gallery1"));
-  probes::ProbeSet set = baked.set;
+  const RealBake& bake = real_bake("gallery1");
+  const Asked asked(bake);
+  probes::ProbeSet set = bake.set;
   set.surface.reset();
   const vec3 scales[] = {vec3(0), {3, 2, 1}, vec3(0.2f)};
   for (std::uint32_t g = 0; g < 3; ++g) {
     probes::relight(set, set.light_groups[g].name, scales[g]);
-    ASSERT_EQ(ssphh_runtime_set_group_scale(baked.file->runtime, g, &scales[g].x), SSPHH_RUNTIME_OK);
+    ASSERT_EQ(ssphh_runtime_set_group_scale(asked.file.runtime, g, &scales[g].x), SSPHH_RUNTIME_OK);
   }
-  const CookedReference reference(baked.scene, baked.source, set, cook::CookParams{}.sight_size);
-  const Differences found(*baked.file, reference, baked.open);
+  const CookedReference reference(bake.scene, bake.source, set, cook::CookParams{}.sight_size);
+  const Differences found(asked.file, reference, asked.open);
   EXPECT_LT(found.within(0.5), 2e-3);
   EXPECT_LT(found.within(0.99), 0.05);
 }

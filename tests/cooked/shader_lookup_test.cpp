@@ -8,18 +8,14 @@
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
-#include <ssphh/bake/transport_bake.h>
 #include <ssphh/gl/buffer.h>
 #include <ssphh/gl/draw.h>
 #include <ssphh/gl/program.h>
-#include <ssphh/place/init.h>
 #include <ssphh/runtime/cooked_file.h>
-#include <ssphh/scene/builtin.h>
 #include <ssphh/study/surface_points.h>
-#include <ssphh/trace/transport_scene.h>
 
-#include "cooked_room.h"
 #include "gl_context.h"
+#include "real_bake.h"
 
 namespace ssphh::test {
 namespace {
@@ -39,33 +35,14 @@ void main() {
 )";
 
 struct Shipped {
-  Shipped(scene::Scene scene, OnSurfaces on_surfaces) {
-    const trace::TransportScene source(scene);
-    bake::TransportBakeParams params;
-    params.transport.surfels_per_radius = 8;
-    params.transport.directions = 128;
-    params.transport.link_rays = 16;
-    params.records = {.points = on_surfaces == OnSurfaces::records ? 600 : 0, .rays = 64};
-    params.fit = on_surfaces == OnSurfaces::fitted;
-    bake::TransportBakeReport report;
-    const bool placed = scene::sphl_places(scene).empty();
-    place::PlaceParams auto_places = place::place_params(scene);
-    auto_places.count = placed ? 60 : 0;
-    const probes::ProbeSet bare =
-        placed ? place::init_from_placement(scene, place::place_probes(source, auto_places), 5)
-               : place::init_from_scene(scene, 5);
-    const probes::ProbeSet set = bake::bake_transport(source, bare, params, report);
-    const cook::CookScene cook_scene{scene, source};
-    file.emplace(cook::cook(set, &cook_scene).bytes);
-    std::vector<vec3> origins;
-    for (const probes::Probe& probe : set.probes) origins.push_back(probe.position);
-    places = study::reachable_points(source, origins, 0, {3000, 5, 0.05f});
-    std::vector<rays::SurfacePoint> open = study::points_in_the_open(source, places, 0, 5);
+  explicit Shipped(const RealBake& bake) : file(bake.bytes) {
+    places = study::reachable_points(bake.source, bake.origins(), 0, {3000, 5, 0.05f});
+    std::vector<rays::SurfacePoint> open = study::points_in_the_open(bake.source, places, 0, 5);
     for (rays::SurfacePoint& at : open) at.moves = true;
     places.insert(places.end(), open.begin(), open.end());
   }
 
-  std::optional<OpenedFile> file;
+  OpenedFile file;
   std::vector<rays::SurfacePoint> places;
 };
 
@@ -76,16 +53,14 @@ const ssphh_cooked_header& header_of(const OpenedFile& file) {
 class ShaderLookup : public WithGl, public testing::WithParamInterface<std::string> {
  protected:
   static const Shipped& shipped(const std::string& name) {
-    static std::map<std::string, Shipped> bakes;
-    const auto found = bakes.find(name);
-    if (found != bakes.end()) return found->second;
+    static std::map<std::string, Shipped> known;
+    if (const auto found = known.find(name); found != known.end()) return found->second;
     const std::size_t colon = name.find(':');
     const std::string lit = colon == std::string::npos ? "records" : name.substr(colon + 1);
-    return bakes
-        .try_emplace(name, scene::make_builtin(name.substr(0, colon)),
-                     lit == "records"  ? OnSurfaces::records
-                     : lit == "fitted" ? OnSurfaces::fitted
-                                       : OnSurfaces::nothing)
+    return known
+        .try_emplace(name, real_bake(name.substr(0, colon), lit == "records"  ? OnSurfaces::records
+                                                            : lit == "fitted" ? OnSurfaces::fitted
+                                                                              : OnSurfaces::nothing))
         .first->second;
   }
 
@@ -147,16 +122,16 @@ void expect_alike(const OpenedFile& file, const std::vector<rays::SurfacePoint>&
 
 TEST_P(ShaderLookup, IsTheRuntimes) {
   const Shipped& s = shipped(GetParam());
-  const gl::Buffer file{std::span<const std::byte>(s.file->bytes())};
+  const gl::Buffer file{std::span<const std::byte>(s.file.bytes())};
   ASSERT_GT(s.places.size(), 3000u);
-  expect_alike(*s.file, s.places, run(file, s.places));
+  expect_alike(s.file, s.places, run(file, s.places));
 }
 
 TEST_P(ShaderLookup, FollowsScalesThatAreWrittenIntoTheBuffer) {
   const Shipped& s = shipped(GetParam());
-  gl::Buffer file{std::span<const std::byte>(s.file->bytes())};
-  const ssphh_cooked_header& h = header_of(*s.file);
-  ssphh_runtime* light = s.file->runtime;
+  gl::Buffer file{std::span<const std::byte>(s.file.bytes())};
+  const ssphh_cooked_header& h = header_of(s.file);
+  ssphh_runtime* light = s.file.runtime;
   std::vector<vec3> before(h.group_count);
   for (std::uint32_t g = 0; g < h.group_count; ++g) {
     ssphh_runtime_group group;
@@ -170,31 +145,31 @@ TEST_P(ShaderLookup, FollowsScalesThatAreWrittenIntoTheBuffer) {
     file.update_bytes(at, std::as_bytes(std::span(&scale, 1)));
   }
   const std::vector<vec4> found = run(file, s.places);
-  expect_alike(*s.file, s.places, found);
+  expect_alike(s.file, s.places, found);
   for (std::uint32_t g = 0; g < h.group_count; ++g)
     ASSERT_EQ(ssphh_runtime_set_group_scale(light, g, &before[g].x), SSPHH_RUNTIME_OK);
-  EXPECT_GT(apart(*s.file, s.places, found).most, 0.1) << "the light has changed";
+  EXPECT_GT(apart(s.file, s.places, found).most, 0.1) << "the light has changed";
 }
 
 TEST_P(ShaderLookup, TakesLightOfAnotherFileByItsRange) {
   const Shipped& s = shipped(GetParam());
-  gl::Buffer file{std::span<const std::byte>(s.file->bytes())};
-  const ssphh_cooked_section& section = header_of(*s.file).sections[SSPHH_COOKED_LIGHT];
-  std::vector<std::byte> evening = s.file->bytes();
+  gl::Buffer file{std::span<const std::byte>(s.file.bytes())};
+  const ssphh_cooked_section& section = header_of(s.file).sections[SSPHH_COOKED_LIGHT];
+  std::vector<std::byte> evening = s.file.bytes();
   std::span<float> floats(reinterpret_cast<float*>(evening.data() + section.offset), section.size / 4);
   for (std::size_t i = 0; i < floats.size(); ++i) floats[i] *= i % 2 == 0 ? 0.25f : 0.75f;
-  ASSERT_EQ(ssphh_runtime_swap_light(s.file->runtime, evening.data(), evening.size()), SSPHH_RUNTIME_OK);
+  ASSERT_EQ(ssphh_runtime_swap_light(s.file.runtime, evening.data(), evening.size()), SSPHH_RUNTIME_OK);
   file.update_bytes(section.offset, std::span(evening).subspan(section.offset, section.size));
   const std::vector<vec4> found = run(file, s.places);
-  expect_alike(*s.file, s.places, found);
-  ASSERT_EQ(ssphh_runtime_swap_light(s.file->runtime, s.file->bytes().data(), evening.size()),
+  expect_alike(s.file, s.places, found);
+  ASSERT_EQ(ssphh_runtime_swap_light(s.file.runtime, s.file.bytes().data(), evening.size()),
             SSPHH_RUNTIME_OK);
-  EXPECT_GT(apart(*s.file, s.places, found).most, 0.1) << "the light has changed";
+  EXPECT_GT(apart(s.file, s.places, found).most, 0.1) << "the light has changed";
 }
 
 TEST_P(ShaderLookup, StaysWithinTheFileAtAnyPlace) {
   const Shipped& s = shipped(GetParam());
-  const gl::Buffer file{std::span<const std::byte>(s.file->bytes())};
+  const gl::Buffer file{std::span<const std::byte>(s.file.bytes())};
   constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   std::vector<rays::SurfacePoint> places;
   for (const bool moves : {false, true})
