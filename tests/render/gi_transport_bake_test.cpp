@@ -57,6 +57,7 @@ TEST(GiTransportBake, TheSetTellsHowItWasMade) {
   bake::TransportBakeParams params;
   params.transport.directions = 200;
   params.transport.link_rays = 32;
+  params.transport.surfels_per_radius = 8;
   const scene::Scene scene = scene::make_builtin("box");
   const probes::GeneratorInfo g = transport_baked(scene, 2, params).set.generator;
   EXPECT_EQ(g.op, probes::LightOperator::surfel);
@@ -178,7 +179,9 @@ TEST(GiTransportBake, WeightsFitBesidePathTracedLight) {
 
 TEST(GiTransportBake, VizStandsBesideTheLightAndKeepsIt) {
   const scene::Scene scene = scene::make_builtin("box");
-  const probes::ProbeSet lit = transport_baked(scene, 2).set;
+  bake::TransportBakeParams params;
+  params.transport.surfel_size = 0.4f;
+  const probes::ProbeSet lit = transport_baked(scene, 2, params).set;
   bake::BakeParams viz;
   viz.keep_light = true;
   viz.face_size = 4;

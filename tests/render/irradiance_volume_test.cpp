@@ -40,7 +40,8 @@ TEST(IrradianceVolume, LeaksThroughAShutDoor) {
   const study::LeakParams params{.path = {.max_depth = 25, .passes = 1, .spp = 64, .seed = 1}};
   const study::TruthAtPoints truth = study::trace_truth(tracer, points, params);
   ASSERT_GT(truth.dark, 100u);
-  test::MadeMethod volume("irradiance-volume", {}, scene), ssphh("ssphh", {"weights=mls"}, scene);
+  test::MadeMethod volume("irradiance-volume", {"surfel_size=0.3"}, scene),
+      ssphh("ssphh", {"weights=mls", "surfel_size=0.3"}, scene);
   const scene::LightingState state = rays::lighting_at(volume.source, 0);
   // Its cells reach through the wall; lookups that ask for visibility do not leak at all.
   EXPECT_GT(study::leak_ratio(volume.irradiance(state, points), truth), 0.005);
@@ -50,7 +51,7 @@ TEST(IrradianceVolume, LeaksThroughAShutDoor) {
 TEST(IrradianceVolume, ASecondUpdateIsThatOfAFreshOne) {
   const scene::Scene scene = scene::make_builtin("two-rooms");
   const std::vector<rays::SurfacePoint> points = test::points_of(scene, 100);
-  const std::vector<std::string> settings = {"probes=40"};
+  const std::vector<std::string> settings = {"probes=40", "directions=128", "surfel_size=0.4"};
   test::MadeMethod kept("irradiance-volume", settings, scene), fresh("irradiance-volume", settings, scene);
   scene::LightingState state = rays::lighting_at(kept.source, 0);
   kept.irradiance(state, points);

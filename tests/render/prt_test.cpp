@@ -37,8 +37,8 @@ TEST(Prt, EnvironmentInTheProbesFollowsRotationToo) {
   const scene::Scene scene = scene::make_builtin("court");
   scene::Scene other = scene;
   other.environment->rotation = 0.7f;
-  test::MadeMethod made("irradiance-volume", {"places=scene"}, scene);
-  test::MadeMethod loaded("irradiance-volume", {"places=scene"}, other);
+  const std::vector<std::string> coarse = {"places=scene", "directions=128", "surfel_size=0.4"};
+  test::MadeMethod made("irradiance-volume", coarse, scene), loaded("irradiance-volume", coarse, other);
   const std::vector<rays::SurfacePoint> points = test::points_of(scene, 50);
   scene::LightingState state = rays::lighting_at(made.source, 0);
   made.irradiance(state, points);
@@ -101,7 +101,8 @@ TEST(Prt, RefusesAnEnvironmentThatSharesItsGroup) {
   scene::Light& lamp = scene.lights.emplace_back();
   lamp.name = "lamp", lamp.group = "environment", lamp.node = 0;
   EXPECT_THROW(test::MadeMethod("prt", {"places=scene"}, scene), Error);
-  test::MadeMethod made("prt", {"places=scene", "environment=probes", "edge=2", "rays=16"}, scene);
+  test::MadeMethod made("prt", {"places=scene", "environment=probes", "edge=2", "rays=16", "surfel_size=0.5"},
+                        scene);
 }
 
 }  // namespace

@@ -27,16 +27,23 @@ std::vector<scene::ProbePlace> places() {
   return {{"a", {-2.3f, 1.6f, 1.5f}, 0.1f}, {"b", {-0.4f, 1.7f, 0.2f}, 0.1f}, {"c", {2, 1.8f, -1.3f}, 0.1f}};
 }
 
+/// Coarse: two sessions are compared, neither with a truth.
+transport::RelightParams coarse() {
+  transport::RelightParams params;
+  params.transport = {.directions = 96, .surfel_size = 0.4f, .link_rays = 32};
+  return params;
+}
+
 TEST(SphlSession, FollowsTheFramesAsOneMadeAnewHasThem) {
   const scene::Scene scene = fire_alone();
   const trace::TransportScene source(scene);
   EXPECT_EQ(source.duration(), 2) << "the fire";
-  test::LitSession session(source, places());
+  test::LitSession session(source, places(), coarse());
   session.update();
   const std::vector<sh::RadianceSh> before = session.reflected();
   for (const float time : {0.3f, 1.7f, 4.3f}) {
     session.update(rays::lighting_at(source, time));
-    test::LitSession anew(source, places());
+    test::LitSession anew(source, places(), coarse());
     anew.update(rays::lighting_at(source, time));
     for (std::size_t i = 0; i < before.size(); ++i) {
       const float level = anew.reflected()[i][0].x;
@@ -60,7 +67,7 @@ TEST(SphlSession, LightsProbesAsPathTracingDoes) {
   for (std::size_t i = 0; i < places().size(); ++i) {
     rays::CubeRequest request;
     request.position = places()[i].position;
-    request.face_size = 16, request.path.spp = 256;
+    request.face_size = 16, request.path.spp = 64;  // which leave a noise of 0.3 %
     const auto traced = tracer.incident_radiance(request, {});
     dvec3 mean(0);
     for (const rays::GroupRadiance& group : traced) {
