@@ -8,7 +8,7 @@
 #endif
 #include "shadow.glsl"
 #include "lights.glsl"
-#ifdef SPHL
+#if defined(SPHL) || defined(ENVIRONMENT)
 #include "probe_data.glsl"
 #endif
 #if defined(SPHL) || defined(LOBE)
@@ -16,6 +16,9 @@
 #endif
 #ifdef ENVIRONMENT
 #include "sh.glsl"
+#ifdef FULL_BSDF
+#include "sky_share.glsl"
+#endif
 #endif
 #ifdef DISC
 #include "disc.glsl"
@@ -217,7 +220,8 @@ vec3 diffusely(Surface s, vec3 wi) { return reflected(s, wi); }
 #endif
 
 // Irradiance by spherical harmonics, divided among directions with shadow maps. What the specular lobe mirrors comes from
-// tiles, dimmed by the share of the directions around the mirrored one that are free.
+// tiles, dimmed by the share of the lobe that SPHLs see to be open; where none is in sight, by the share of the directions
+// around the mirrored one that are free.
 void main() {
   Surface s = read_surface(ivec2(gl_FragCoord.xy));
   prepare(s);
@@ -257,7 +261,8 @@ void main() {
   vec3 reflects = sum * scale;
 #endif
 #ifdef FULL_BSDF
-  float open = around > 0 ? free / around : 1;
+  float open = sky_share(s, mirror, 2 * bsdf.alpha);
+  if (open < 0) open = around > 0 ? free / around : 1;
   reflects += bsdf.albedo * open * emitter.light.rgb * through_lobe(mirror, bsdf.roughness);
 #endif
   store(reflects, luminance(whole), luminance(lit * scale));

@@ -61,13 +61,6 @@ Found look_up(Surface s, vec3 mirror, float roughness, bool wanted) {
   return found;
 }
 #else
-// Whether a probe in direction d is worth a look: from below the tangent plane light reaches what stands still over no
-// edge, and what moves only over one that is nearer than 4 % of the distance, for sight begins 1 % of it off the surface.
-bool maybe_above(vec3 d, float d2, Surface s) {
-  float height = dot(d, s.geometric_normal), below = s.moves ? 0.25 : SIGHT_BELOW;
-  return height >= 0 || height * height <= below * below * d2;
-}
-
 float bump_of(float d2) {
   float spacing = frame.tone.w, reach = MLS_REACH * spacing, falloff = max(0.0, 1 - d2 / (reach * reach));
   return falloff * falloff + MLS_LEAST_BUMP;

@@ -1,9 +1,5 @@
-// SPHLs as surfaces look them up: which stand around a point, which of them it sees, and their light. Constants in capitals
-// that stand in no shader are those of probes/lookup_constants.h.
-#include "probe_data.glsl"
-
-// CandidateGrid's lists, CELLS_WIDTH entries in a row: position; w: probe, -1 where a list ends.
-layout(binding = UNIT_PROBE_CELLS) uniform sampler2D probe_cells;
+// Light of SPHLs as surfaces look it up.
+#include "probe_places.glsl"
 
 // Octahedral tiles: irradiance of a probe by normal; radiance by mirror direction, one tile per roughness.
 layout(binding = UNIT_IRRADIANCE_TILES) uniform sampler2DArray irradiance_tiles;
@@ -13,16 +9,6 @@ uniform ivec4 irradiance_layout;  // texels of a tile without its border, log2 o
                                   // that of what more lights things that move, 0: nothing
 uniform ivec4 radiance_layout;    // likewise; z: tiles of a probe
 uniform float level_roughness[RADIANCE_LEVELS];
-
-// First entry of the list of candidates around x, nearest to the cell's middle first; frame.grid_size.w entries.
-int candidates_at(vec3 x) {
-  ivec3 cell = ivec3(floor((x - frame.grid_origin.xyz) / frame.grid_origin.w));
-  cell = clamp(cell, ivec3(0), frame.grid_size.xyz - 1);
-  return ((cell.z * frame.grid_size.y + cell.y) * frame.grid_size.x + cell.x) * frame.grid_size.w;
-}
-vec4 candidate(int entry) {
-  return texelFetch(probe_cells, ivec2(entry & (1 << LIST_WIDTH_LOG2) - 1, entry >> LIST_WIDTH_LOG2), 0);
-}
 
 // Texel of a direction in a tile of `size`.
 vec2 in_tile(vec3 d, int size) { return 1 + (0.5 + 0.5 * oct_encode(d)) * float(size); }
@@ -64,10 +50,4 @@ vec3 radiance_of(int probe, RadiancePlace at) {
     sum += weight * sample_tile(radiance_tiles, radiance_layout.xy, probe * radiance_layout.z + level, at.texel);
   }
   return sum;
-}
-
-// From off the surface as probes::ProbeSight starts its rays; one texel decides.
-bool sees_probe(vec3 probe_place, int probe, vec3 x, vec3 n, vec3 geometric, float distance) {
-  vec3 lift = SIGHT_LIFT * min(distance, frame.tone.w) * n;
-  return cube_sight(probe_maps, frame.maps.z, frame.map_tiles.z, frame.map_near.z, probe, probe_place, x, lift, geometric);
 }

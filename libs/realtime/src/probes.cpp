@@ -191,11 +191,11 @@ int Probes::update_maps(const GpuScene& scene, gl::Program& opaque, gl::Program&
 
 void Probes::bind_sight() const {
   maps_.texture().bind(unit::probe_maps);
+  cells_.bind(unit::probe_cells);
 }
 
 void Probes::bind_lookup(gl::Program& program) const {
   bind_sight();
-  cells_.bind(unit::probe_cells);
   irradiance_.bind(unit::irradiance_tiles);
   radiance_.bind(unit::radiance_tiles);
   const bool of_moving = has_light_of_moving_ && uses_light_of_moving_;

@@ -59,7 +59,7 @@ class Probes {
                   FrameCounters& counters);
   /// For a program that looks probes up.
   void bind_lookup(gl::Program& program) const;
-  /// Shadow maps alone.
+  /// Shadow maps, and which probes stand where.
   void bind_sight() const;
   std::size_t bytes() const;
 
