@@ -152,14 +152,14 @@ std::vector<vec4> read(const gl::Texture& texture) {
 }
 
 /// Sums and differences of luminances of what stands there.
-struct Compared {
+struct GBufferDifference {
   double ratio = 0, mean_difference = 0;  ///< of the sums; in shares of the mean
   int lit = 0;
 };
-Compared compare(const EnginesFrame& frame, const rays::IndirectLight& lookup,
-                 const std::vector<vec4>& found) {
+GBufferDifference compare(const EnginesFrame& frame, const rays::IndirectLight& lookup,
+                          const std::vector<vec4>& found) {
   double expected_sum = 0, sum = 0, differences = 0;
-  Compared result;
+  GBufferDifference result;
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (frame.albedo[i] == vec3(0)) {
       EXPECT_EQ(vec3(found[i]), vec3(0)) << i;
@@ -195,7 +195,7 @@ class EnginesConvention : public EnginesGBuffer, public testing::WithParamInterf
 
 TEST_P(EnginesConvention, GivesTheLookupsLightAtTheSameTexels) {
   const EnginesFrame frame(lit_rooms().source, lit_rooms().view(), GetParam());
-  const Compared found = compare(frame, *lit_rooms().lookup, light(frame));
+  const GBufferDifference found = compare(frame, *lit_rooms().lookup, light(frame));
   EXPECT_GT(found.lit, engine_size.width * engine_size.height / 2);
   EXPECT_NEAR(found.ratio, 1, 1e-3);
   EXPECT_LT(found.mean_difference, 2e-3);

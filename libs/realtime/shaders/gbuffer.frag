@@ -119,7 +119,7 @@ void main() {
   }
 #endif
   gbuffer0 = uvec4(packSnorm2x16(oct_encode(n)), packSnorm2x16(oct_encode(toward_viewer)),
-                   pack_color(diffuse, (flags & 2) != 0 ? 1u : 0u), pack_color(f0, 0u));
+                   pack_color(diffuse, (flags & 2) != 0 ? 1u : 0u), pack_color(f0, from_front ? 0u : 1u));
   gbuffer1 = uvec2(packSnorm2x16(roughness), floatBitsToUint(dot(from_camera, frame.camera_forward.xyz)));
   color_out = vec4(emission_shown == 1 || (emission_shown == 2 && unlit) ? emission : vec3(0), 1);
 }

@@ -56,6 +56,14 @@ void Renderer::Data::draw_geometry() {
              [](const DrawItem&) { return true; });
   images.gbuffer0.bind(unit::gbuffer0);
   images.gbuffer1.bind(unit::gbuffer1);
+  if (!frame_settings.wireframe) mend_cracks();
+}
+
+void Renderer::Data::mend_cracks() {
+  images.gbuffer0.bind_image(unit::gbuffer0_image);
+  images.gbuffer1.bind_image(unit::gbuffer1_image);
+  fullscreen(shaders.mend_cracks(), images.light_pass.id(), images.full(), {.color_write = false});
+  gl::shader_memory_barrier();
 }
 
 template <class Wanted>

@@ -115,7 +115,7 @@ inline constexpr unsigned listed_pixels = 2;  // storage
 }  // namespace binding
 namespace unit {
 /// Of images that shaders write.
-inline constexpr unsigned color_image = 0;
+inline constexpr unsigned color_image = 0, gbuffer0_image = 0, gbuffer1_image = 1;
 /// Of a whole picture, and of the textures of another renderer's G-buffer, the first of six.
 inline constexpr unsigned picture = 0, taken = 8;
 inline constexpr unsigned gbuffer0 = 0, gbuffer1 = 1, albedo_table = 3, light_maps = 4, area_maps = 5,

@@ -72,6 +72,7 @@ struct Renderer::Data {
   /// In pieces one map, and `more_shadows` tells whether others wait.
   void draw_shadows();
   void draw_geometry();
+  void mend_cracks();
   void take_geometry();
   /// Items of the scene as one layer has them; `wanted(item)` chooses, `state` says how.
   template <class Wanted>

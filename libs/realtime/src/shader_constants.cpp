@@ -97,6 +97,8 @@ constexpr ShaderConstant constants[] = {
     whole("UNIT_PROBE_CELLS", unit::probe_cells),
     whole("UNIT_DEPTH_BOUNDS", unit::depth_bounds),
     whole("UNIT_COLOR_IMAGE", unit::color_image),
+    whole("UNIT_GBUFFER0_IMAGE", unit::gbuffer0_image),
+    whole("UNIT_GBUFFER1_IMAGE", unit::gbuffer1_image),
     whole("UNIT_PICTURE", unit::picture),
     whole("UNIT_TAKEN", unit::taken),
     whole("UNIT_VOXELS", unit::voxels),

@@ -94,7 +94,8 @@ gl::Program& Shaders::seen(EmitterKind kind) {
 
 std::string Shaders::compile_all() {
   for (int textures = 0; textures < 16; ++textures) geometry(textures, false), geometry(textures, true);
-  occlusion(), mark(), view(), resolve(), display(), glass_shadow(), take_gbuffer(), some_places();
+  occlusion(), mark(), view(), resolve(), display(), glass_shadow(), take_gbuffer(), some_places(),
+      mend_cracks();
   for (const bool full : {false, true}) {
     shadow(full);
     depth_bounds(full), agree(full), interpolate(full), mirrored_environment(full);

@@ -29,6 +29,8 @@ class Shaders {
                                                   "NORMAL_TEXTURE"};
   /// `glass`: with the layers of gbuffer.frag.
   gl::Program& geometry(int textures, bool glass);
+  /// What shows the inside of a body between two pieces of a wall.
+  gl::Program& mend_cracks() { return get(mend_cracks_, "mend_cracks.frag"); }
   gl::Program& shadow(bool alpha);
   /// An engine's G-buffer as ours.
   gl::Program& take_gbuffer() { return get(take_gbuffer_, "gbuffer_take.frag"); }
@@ -80,7 +82,7 @@ class Shaders {
   Slot geometry_[16][2], shadow_[2], depth_bounds_[2], glass_shadow_, direct_[emitter_kinds][2][2][2],
       mirrored_environment_[2], indirect_[indirect_lookups][2][indirect_outputs], agree_[2], mark_,
       interpolate_[2], occlusion_, method_[method_kinds][2][indirect_outputs], seen_[emitter_kinds], view_,
-      resolve_, display_, take_gbuffer_, some_places_;
+      resolve_, display_, take_gbuffer_, some_places_, mend_cracks_;
 };
 
 }  // namespace ssphh::realtime
