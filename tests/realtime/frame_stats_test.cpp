@@ -85,24 +85,24 @@ TEST_F(FrameStatsTest, DrawsAndTrianglesAreCounted) {
   Renderer renderer(gl(), scene_);
   const FrameStats first = frame(renderer);
   EXPECT_EQ(first.shadow_maps_drawn, 1) << "its cone meets one face of the cube";
-  EXPECT_EQ(first.draw_calls, 1u + 1 + 1) << "the map, the wall, and the lamp's light on it";
+  EXPECT_EQ(first.draw_calls, 1u + 2 + 1) << "the map, the wall and its cracks, and the lamp's light on it";
   EXPECT_EQ(first.triangles, 2u * (1 + 1)) << "those of whole pictures do not count";
   const FrameStats second = frame(renderer);
   EXPECT_EQ(second.shadow_maps_drawn, 0);
   EXPECT_EQ(second.shadow_maps_waiting, 0);
-  EXPECT_EQ(second.draw_calls, 2u);
+  EXPECT_EQ(second.draw_calls, 3u);
   EXPECT_EQ(second.triangles, 2u);
   EXPECT_EQ(second.bytes_uploaded, 13u * 16) << "what shaders ask of a frame";
   renderer.set_probes(one_probe());
   frame(renderer);
-  EXPECT_EQ(frame(renderer).draw_calls, 3u) << "and the probe's light";
-  EXPECT_EQ(frame(renderer, {.supersample = 2}).draw_calls, 4u) << "and the mean of the samples";
+  EXPECT_EQ(frame(renderer).draw_calls, 4u) << "and the probe's light";
+  EXPECT_EQ(frame(renderer, {.supersample = 2}).draw_calls, 5u) << "and the mean of the samples";
 
   scene_.lights[0].type = scene::LightType::point;
   Renderer other(gl(), scene_);
   const FrameStats all = frame(other);
   EXPECT_EQ(all.shadow_maps_drawn, 6);
-  EXPECT_EQ(all.draw_calls, 5u + 2) << "the face that looks away from the wall has nothing to draw";
+  EXPECT_EQ(all.draw_calls, 5u + 3) << "the face that looks away from the wall has nothing to draw";
 }
 
 TEST_F(FrameStatsTest, SamplesAreThoseOfTheSurfacesThatAreShown) {
