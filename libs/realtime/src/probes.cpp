@@ -23,7 +23,7 @@ int face_size(std::size_t probes, std::size_t bytes) {
   return size;
 }
 
-/// The grid's lists as probe_lookup.glsl reads them: places, and probes' numbers, which floats hold exactly.
+/// The grid's lists as probe_places.glsl reads them: places, and probes' numbers, which floats hold exactly.
 gl::Texture cell_texture(const probes::CandidateGrid& grid, std::span<const vec3> places) {
   constexpr std::size_t width = list_width;
   std::vector<vec4> texels((grid.lists.size() + width - 1) / width * width, vec4(0, 0, 0, -1));
