@@ -72,6 +72,55 @@ std::vector<std::uint8_t> marked(const std::vector<std::uint32_t>* which, std::s
   return marks;
 }
 
+/// The links from surfel to surfel, of mean albedo: bounces that read an eighth of what those between patches
+/// do.
+struct SurfelLinks {
+  std::vector<Link> links;
+  LinkRows rows;
+  std::vector<vec3> albedo;
+  double bound = 0;  ///< for Chebyshev's steps
+
+  explicit SurfelLinks(const TransportNetwork& network) {
+    const std::size_t count = network.surfel_count();
+    std::vector<glm::dvec4> reflected(count, glm::dvec4(0));
+    std::vector<std::size_t> first{0};
+    links.reserve(network.links().link_count());
+    for (const LinkRows::Row& row : network.links().rows) {
+      for (const auto& part : {row.fixed, row.moving}) {
+        for (const Link& link : part) {
+          const std::size_t surfel = network.surfel_of(link.patch);
+          links.push_back({static_cast<std::uint32_t>(surfel), link.weight});
+          reflected[surfel] += double(link.weight) * glm::dvec4(network.albedo()[link.patch], 1);
+        }
+      }
+      merge_from(first.back());
+      first.push_back(links.size());
+    }
+    for (std::size_t s = 0; s < count; ++s) {
+      rows.rows.push_back({std::span<const Link>(links).subspan(first[s], first[s + 1] - first[s]), {}});
+      albedo.emplace_back(reflected[s] / std::max(reflected[s].w, 1e-30));
+    }
+    bound = chebyshev_bound(contraction(rows, albedo));
+  }
+  SurfelLinks(const SurfelLinks&) = delete;  // rows point into links
+
+ private:
+  /// Of links to one surfel makes one.
+  void merge_from(std::size_t begin) {
+    std::sort(links.begin() + static_cast<std::ptrdiff_t>(begin), links.end(),
+              [](const Link& a, const Link& b) { return a.patch < b.patch; });
+    std::size_t end = begin;
+    for (std::size_t i = begin; i < links.size(); ++i) {
+      if (end > begin && links[end - 1].patch == links[i].patch) {
+        links[end - 1].weight += links[i].weight;
+      } else {
+        links[end++] = links[i];
+      }
+    }
+    links.resize(end);
+  }
+};
+
 class LinkViz {
  public:
   LinkViz(const TransportNetwork& network, const rays::TransportSource& source,
@@ -83,6 +132,7 @@ class LinkViz {
         params_(params),
         projector_(degree, network.gbuffer().directions),
         field_(network, 0),
+        surfels_(network),
         kept_(probes.size(), StrongestEdges(params)),
         to_(marked(scope ? &scope->to : nullptr, probes.size())),
         from_(marked(scope ? &scope->from : nullptr, probes.size())) {}
@@ -111,10 +161,24 @@ class LinkViz {
     at_samples_.assign(network_.samples().size(), vec3(0));
     add_emission(network_, source_, sphere_, at_samples_);
     field_.sum({}, at_samples_, direct_);
-    indirect_.clear();
-    Solver().solve(network_.links(), network_.albedo(), direct_, chebyshev_bound(network_.contraction()),
-                   params_.solve, indirect_);
+    // The first bounce and the last are between patches, as far as light of their own colours goes.
+    further_.assign(network_.surfel_count(), Irradiance4(0));
+    bounce(first_);
+    further_.clear();
+    Solver().solve(surfels_.rows, surfels_.albedo, first_, surfels_.bound, params_.solve, further_);
+    for (std::size_t s = 0; s < first_.size(); ++s) further_[s] += first_[s];
+    bounce(indirect_);
     for (std::size_t p = 0; p < direct_.size(); ++p) direct_[p] += indirect_[network_.surfel_of(p)];
+  }
+
+  /// What the direct light and `further_` give every surfel.
+  void bounce(std::vector<Irradiance4>& out) {
+    radiosity_.resize(direct_.size());
+    parallel_for(direct_.size(), 4096, [&](std::size_t p) {
+      radiosity_[p] = vec4(network_.albedo()[p], 0) * (direct_[p] + further_[network_.surfel_of(p)]);
+    });
+    out.resize(network_.surfel_count());
+    bounce_once(network_.links(), radiosity_, out);
   }
 
   /// P of what probe i sees on surfaces.
@@ -165,13 +229,15 @@ class LinkViz {
   const LinkVizParams& params_;
   DirectionProjector projector_;
   DirectField field_;
+  SurfelLinks surfels_;
   std::vector<StrongestEdges> kept_;
   std::vector<std::uint8_t> to_, from_;
   // Of the sphere that is lit.
   SphlEmitter sphere_;
   float radiance_ = 1;
   std::vector<vec3> at_samples_;
-  std::vector<Irradiance4> direct_, indirect_;
+  std::vector<Irradiance4> direct_, radiosity_;          ///< of patches
+  std::vector<Irradiance4> first_, further_, indirect_;  ///< of surfels
 };
 
 }  // namespace

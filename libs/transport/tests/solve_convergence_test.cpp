@@ -1,9 +1,14 @@
 /// When the solver stops and how it gets there: every row and channel counts, and iterates are Chebyshev's.
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include <ssphh/core/random.h>
 #include <ssphh/transport/solve.h>
 
 namespace ssphh::transport {
@@ -75,6 +80,62 @@ TEST(SolveConvergence, PatchesOfARowDifferInDirectLightAndAlbedoAlone) {
   const Contraction bounds = contraction(rows, albedo);
   const double most = 0.5 * 0.6 + 0.25 * 0.8;
   EXPECT_NEAR(bounds.upper, most, 1e-6);
+}
+
+/// Rows of `patches` that see patches of all others, of colours that differ from patch to patch.
+struct Patchwork {
+  std::vector<Link> links;
+  LinkRows rows;
+  std::vector<vec3> albedo;
+  std::vector<Irradiance4> direct;
+
+  explicit Patchwork(std::size_t patches, std::size_t count = 600, std::size_t per_row = 40) {
+    rows.patches = patches;
+    Pcg32 rng(patches);
+    for (std::size_t p = 0; p < count * patches; ++p) {
+      albedo.push_back(0.95f * rng.uniform3() * rng.uniform3());
+      direct.emplace_back(p < 7 ? rng.uniform3() : vec3(0), 0);
+    }
+    for (std::size_t k = 0; k < count * per_row; ++k) {
+      const auto patch =
+          static_cast<std::uint32_t>(rng.uniform() * 0.99999f * static_cast<float>(albedo.size()));
+      links.push_back({patch, 1 / static_cast<float>(per_row)});
+    }
+    for (std::size_t i = 0; i < count; ++i)
+      rows.rows.push_back({std::span<const Link>(links).subspan(i * per_row, per_row), {}});
+  }
+
+  /// E by plain iteration between patches.
+  std::vector<glm::dvec3> exact() const {
+    std::vector<glm::dvec3> e(rows.rows.size(), glm::dvec3(0));
+    for (int bounce = 0; bounce < 200; ++bounce) {
+      std::vector<glm::dvec3> next(e.size(), glm::dvec3(0));
+      for (std::size_t i = 0; i < e.size(); ++i) {
+        for (const Link& link : rows.rows[i].fixed) {
+          next[i] += double(link.weight) * glm::dvec3(albedo[link.patch]) *
+                     (glm::dvec3(direct[link.patch]) + e[link.patch / rows.patches]);
+        }
+      }
+      e.swap(next);
+    }
+    return e;
+  }
+};
+
+TEST(SolveConvergence, EveryBounceHasThePatchesOwnAlbedo) {
+  for (const std::size_t patches : {1u, 2u, 3u, 5u, 7u, 8u, 13u, 32u}) {
+    const Patchwork work(patches);
+    const std::vector<glm::dvec3> exact = work.exact();
+    std::vector<Irradiance4> indirect;
+    const SolveReport report =
+        Solver().solve(work.rows, work.albedo, work.direct, 0.6, {1e-5f, 300}, indirect);
+    EXPECT_TRUE(report.converged) << patches;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(double(indirect[i][c]), exact[i][c], 1e-4 * exact[i][c])
+            << patches << " patches, row " << i;
+    }
+  }
 }
 
 TEST(SolveConvergence, DimRowsAreJudgedByAThousandthOfTheBrightest) {

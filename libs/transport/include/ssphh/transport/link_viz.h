@@ -15,8 +15,9 @@ struct LinkVizParams {
   int neighbors = 16;   ///< N′: each probe keeps at most so many edges, those with the largest P; −1: all
   float threshold = 0;  ///< and only those with P above it
   probes::VizSource source = probes::VizSource::intensity;
-  /// P and H are for ranking and for HIER: a hundredth is finer than what the spheres' coarse shadows leave.
-  SolveParams solve{.tolerance = 1e-2f};
+  /// Of what bounces more than once. P and H are for ranking and for HIER: finer than what the spheres' coarse
+  /// shadows leave.
+  SolveParams solve{.tolerance = 3e-2f};
 };
 
 /// Which edges are looked for: those to probes of `to` from probes of `from`, indices.
