@@ -310,6 +310,8 @@ class App {
   void fit_to_scene(probes::ProbeSet& set, const std::string& file, bool anyway) const;
   /// By the quality that is set, which live light has from then on.
   LiveLightParams light_params();
+  void start_light(const std::string& name, const LiveLightParams& params,
+                   const std::function<void(const LiveLight&)>& placed);
   void take_quality();
   void update_time(double seconds);
   void apply_edits();

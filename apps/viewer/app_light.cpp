@@ -1,6 +1,7 @@
 // What lights the scene: its probes, found, lit by transport or traced, or read from a file.
 
 #include <algorithm>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -107,29 +108,39 @@ void App::rebuild_light() {
     say("there are no SPHLs left: direct light only");
     return;
   }
-  auto scene = std::make_shared<const scene::Scene>(with_materials(*document.scene, document.edits()));
-  job.start("lighting probes", [this, scene, params, time = document.time](const Control& control) {
-    auto live = std::make_shared<LiveLight>(scene, params, time, control);
-    return [this, live] {
-      live_seconds_ = job.status().seconds;
-      light.take(live);
-      prepare_surfaces();
-    };
-  });
+  start_light("lighting probes", params, [](const LiveLight&) {});
 }
 
 void App::place_probes(float spacing) {
-  auto scene = std::make_shared<const scene::Scene>(with_materials(*document.scene, document.edits()));
   LiveLightParams params = light_params();
   params.spacing = spacing;
-  job.start("placing probes", [this, scene, params, time = document.time](const Control& control) {
-    auto live = std::make_shared<LiveLight>(scene, params, time, control);
-    return [this, live] {
+  start_light("placing probes", params, [this](const LiveLight& found) {
+    take_places("place probes", found.session().places());
+    say(fmt::format("{} probes", found.session().places().size()));
+  });
+}
+
+/// Lights the scene at a glance first, where nothing does. `placed` is called once, before the first light is
+/// taken.
+void App::start_light(const std::string& name, const LiveLightParams& params,
+                      const std::function<void(const LiveLight&)>& placed) {
+  auto scene = std::make_shared<const scene::Scene>(with_materials(*document.scene, document.edits()));
+  const bool dark = !light.live();
+  job.start(name, [this, scene, params, placed, dark, time = document.time](const Control& control) {
+    const auto take_glance = [this, placed](const std::shared_ptr<LiveLight>& coarse) {
+      job.hand_over([this, placed, coarse] {
+        placed(*coarse);
+        light.take(coarse);
+      });
+    };
+    std::function<void(std::shared_ptr<LiveLight>)> glance;
+    if (dark) glance = take_glance;
+    auto live = find_light(scene, params, time, control, glance);
+    return [this, placed, dark, live] {
       live_seconds_ = job.status().seconds;
-      take_places("place probes", live->session().places());
+      if (!dark) placed(*live);
       light.take(live);
       prepare_surfaces();
-      say(fmt::format("{} probes", live->session().places().size()));
     };
   });
 }

@@ -1,5 +1,7 @@
 #include "live_light.h"
 
+#include <algorithm>
+
 #include <ssphh/scene/light_mode.h>
 #include <ssphh/scene/query.h>
 
@@ -47,6 +49,27 @@ probes::ProbeSet LiveLight::bake(const scene::Scene& scene, const Control& contr
   generator.scene = scene.name;
   generator.scene_hash = scene::light_hash(scene);
   return transport::baked_set(*session_, source_.light_groups(), generator, control);
+}
+
+LiveLightParams at_a_glance(LiveLightParams params) {
+  transport::TransportParams& transport = params.relight.transport;
+  transport.most_surfels = std::min(transport.most_surfels, 6000);
+  transport.link_rays = std::min(transport.link_rays, 48);
+  transport.directions = std::min(transport.directions, 384);
+  transport.samples = std::min(transport.samples, 4);
+  params.relight.records.points = 0;
+  return params;
+}
+
+std::shared_ptr<LiveLight> find_light(std::shared_ptr<const scene::Scene> scene, LiveLightParams params,
+                                      float time, const Control& control,
+                                      const std::function<void(std::shared_ptr<LiveLight>)>& glance) {
+  if (glance) {
+    const auto coarse = std::make_shared<LiveLight>(scene, at_a_glance(params), time, control);
+    params.places = coarse->session().places();
+    glance(coarse);
+  }
+  return std::make_shared<LiveLight>(std::move(scene), params, time, control);
 }
 
 }  // namespace ssphh::viewer

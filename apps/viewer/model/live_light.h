@@ -1,6 +1,7 @@
 #pragma once
 /// Probes of a scene that stay lit while lamps and doors move: a relight session with all that it stands on.
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -43,5 +44,14 @@ class LiveLight {
   trace::TransportScene source_;
   std::optional<transport::RelightSession> session_;
 };
+
+/// What lights any scene within some seconds, before the light of `params` is there: few surfels, no records.
+LiveLightParams at_a_glance(LiveLightParams params);
+
+/// Live light of `params`; before it, where `glance` is given, of what at_a_glance() makes of them, with the
+/// same places.
+std::shared_ptr<LiveLight> find_light(std::shared_ptr<const scene::Scene> scene, LiveLightParams params,
+                                      float time, const Control& control,
+                                      const std::function<void(std::shared_ptr<LiveLight>)>& glance = {});
 
 }  // namespace ssphh::viewer

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -71,6 +72,31 @@ TEST(LiveLight, FollowsLampsAndFactorsAsASessionDoes) {
   EXPECT_EQ(set.probes[0].radius, 0.2f);
   EXPECT_EQ(set.probes[1].self, session.reflected()[1]);
   EXPECT_EQ(set.generator.op, probes::LightOperator::surfel);
+}
+
+TEST(LiveLight, AGlanceComesFirstAndLeavesNoTrace) {
+  const auto scene = std::make_shared<const scene::Scene>(scene::make_builtin("two-rooms"));
+  LiveLightParams params = few_directions();
+  params.spacing = 1.5f;
+  params.relight.transport.surfel_size = 0.12f;
+  std::shared_ptr<LiveLight> coarse;
+  const auto light = find_light(scene, params, 0, {}, [&](const std::shared_ptr<LiveLight>& glance) {
+    EXPECT_EQ(coarse, nullptr) << "one glance";
+    coarse = glance;
+  });
+  ASSERT_TRUE(coarse && light);
+  EXPECT_TRUE(std::ranges::equal(coarse->session().places(), light->session().places(), {},
+                                 &scene::ProbePlace::position, &scene::ProbePlace::position));
+  EXPECT_LT(2 * coarse->session().network().surfel_count(), 3 * 6000u) << "about as many as are asked for";
+  EXPECT_LT(coarse->session().network().surfel_count(), light->session().network().surfel_count());
+  EXPECT_FALSE(coarse->probes().surface);
+  EXPECT_EQ(light->probes(), find_light(scene, params, 0, {})->probes());
+  // It is no other light: probes are as bright, within what 32 rays a probe and large surfels err by.
+  const probes::ProbeSet rough = coarse->probes(), fine = light->probes();
+  double of_rough = 0, of_fine = 0;
+  for (std::size_t i = 0; i < fine.probes.size(); ++i)
+    of_rough += double(rough.probes[i].self.values[0].y), of_fine += double(fine.probes[i].self.values[0].y);
+  EXPECT_NEAR(of_rough, of_fine, 0.1 * of_fine);
 }
 
 TEST(LiveLight, FindsPlacesWhereNoneAreGiven) {
