@@ -15,6 +15,7 @@ class ExposureFollower {
   float take(float suits);
   /// The next one is the first.
   void forget() { shown_.reset(); }
+  bool is_first() const { return !shown_; }
 
  private:
   std::optional<float> shown_;

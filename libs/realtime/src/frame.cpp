@@ -80,9 +80,26 @@ void Renderer::Data::plan(const Eye& eye) {
     todo.push_back({seen, &Data::draw_view});
   if (images.supersample > 1) todo.push_back({resolve, &Data::draw_resolved});
   if (frame_target.framebuffer != Target::none) todo.push_back({display, &Data::draw_display});
-  const FrameBlock block = frame_block(eye, settings, images, lights, probes, scene.bounds());
+  upload_frame_block(eye);
+}
+
+void Renderer::Data::upload_frame_block(const Eye& eye) {
+  const FrameBlock block = frame_block(eye, frame_settings, images, lights, probes, scene.bounds());
   upload(counters, frame_buffer, std::span<const FrameBlock>(&block, 1));
   view_projection = clip_matrix(block);
+}
+
+void Renderer::show_again(const image::ToneMap& tone) {
+  Data& d = *data_;
+  if (!d.drawn) throw Error("real-time renderer", "no frame was drawn yet");
+  if (d.frame_target.framebuffer == Target::none)
+    throw Error("real-time renderer", "the last frame has no target to show it in");
+  gl::apply_conventions();
+  d.frame_settings.tone = tone;
+  d.upload_frame_block(eye_of(d.frame_camera, d.frame_settings, d.images));
+  d.frame_buffer.bind_uniform(binding::frame_block);
+  d.draw_display();
+  d.context.throw_on_error("showing a frame again");
 }
 
 void Renderer::begin(const scene::CameraPose& camera, const FrameSettings& settings, const Target& target) {

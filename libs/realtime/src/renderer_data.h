@@ -51,6 +51,7 @@ struct Renderer::Data {
   /// The same in common with a frame on an engine's G-buffer.
   void make_room(const FrameSettings& settings, const Target& target);
   void plan(const Eye& eye);
+  void upload_frame_block(const Eye& eye);
   int pieces_of(Pass pass) const;
   /// The pass in bands of rows, a piece each.
   void in_bands(Pass pass, void (Data::*draw)());

@@ -123,6 +123,10 @@ class Renderer {
   /// another begin() or draw() drops what is left. Nothing is read back before the last piece.
   void begin(const scene::CameraPose& camera, const FrameSettings& settings, const Target& target);
   bool step();
+  /// The last frame, whole, once more into its target, with this exposure and curve: the bits of one drawn
+  /// with them, in the time of one pass. Throws Error before the first frame, and where read_back() alone
+  /// wanted it.
+  void show_again(const image::ToneMap& tone);
   /// Indirect light on what an engine has drawn: finds it at each texel of the G-buffer as draw() does for
   /// the scene, with `settings`' lookup, weights, indirect_scale and ambient occlusion, or of the method that
   /// is set. Returns the radiance [W/(m² sr)] that Lambertian surfaces of the albedo send, albedo E / π, as
