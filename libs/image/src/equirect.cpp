@@ -25,8 +25,11 @@ double equirect_solid_angle(int y, int width, int height) {
 }
 
 vec3 sample_equirect(const Image& image, const vec3& direction) {
+  return sample_equirect_at(image, equirect_uv(direction));
+}
+
+vec3 sample_equirect_at(const Image& image, const vec2& uv) {
   require(!image.empty(), "equirectangular image", "it is empty");
-  const vec2 uv = equirect_uv(direction);
   const int width = image.width, height = image.height;
   const BilinearTap tap(uv.x * static_cast<float>(width), uv.y * static_cast<float>(height));
   return bilinear(tap, [&](int x, int y) {
@@ -35,8 +38,9 @@ vec3 sample_equirect(const Image& image, const vec3& direction) {
       y = y < 0 ? -1 - y : 2 * height - 1 - y;
       x += width / 2;
     }
-    x %= width;
-    return image.rgb(x < 0 ? x + width : x, y);
+    if (x < 0) x += width;
+    if (x >= width) x -= width;
+    return image.rgb(x, y);
   });
 }
 

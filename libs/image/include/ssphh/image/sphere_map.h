@@ -26,8 +26,10 @@ vec2 equirect_uv(const vec3& direction);
 /// Exact solid angle [sr] of each pixel in row y; times width and summed over rows: 4π.
 double equirect_solid_angle(int y, int width, int height);
 
-/// Bilinear; wraps around in u and across the poles.
+/// Bilinear; wraps around in u and across the poles. Throws Error for an empty image.
 vec3 sample_equirect(const Image& image, const vec3& direction);
+/// The same at a place that equirect_uv() gave.
+vec3 sample_equirect_at(const Image& image, const vec2& uv);
 
 /// Unit direction of a place on an angular map; none outside the disc.
 std::optional<vec3> angular_direction(float u, float v);
