@@ -9,7 +9,7 @@
 namespace ssphh::geometry {
 
 Balls::Balls(std::span<const vec3> centres, std::span<const float> radii)
-    : boxes_(centres.size() / apart + 1) {
+    : boxes_(centres.size() / step + 1) {
   require(centres.size() == radii.size(), "balls", "there is not one radius for each centre");
   require(std::ranges::all_of(centres, is_finite), "balls", "a centre is not finite");
   require(std::ranges::all_of(radii, [](float r) { return r >= 0 && std::isfinite(r); }), "balls",
@@ -37,7 +37,7 @@ Balls::Box Balls::sort(std::size_t begin, std::size_t end, std::span<const float
     box.low = glm::min(box.low, half.low);
     box.high = glm::max(box.high, half.high);
   }
-  return boxes_[middle / apart] = box;
+  return boxes_[middle / step] = box;
 }
 
 std::size_t Balls::bytes() const {

@@ -1,9 +1,12 @@
 /// What finds the nearest, against all of them one after another.
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include <ssphh/core/random.h>
 #include <ssphh/geometry/balls.h>
+#include <ssphh/geometry/box.h>
 #include <ssphh/geometry/near_grid.h>
 #include <ssphh/geometry/nearest.h>
 #include <ssphh/geometry/triangle_tree.h>
@@ -28,6 +31,20 @@ TEST(NearGrid, FindsAllNearerThanTheRadiusInTheirOrder) {
       EXPECT_EQ(grid.near(at, radius), expected);
     }
   }
+}
+
+TEST(Boxes, AreApartAlongAnyAxisAndNotWhereTheyTouch) {
+  const vec3 low(1, 2, 3), high(2, 4, 6);
+  for (int axis = 0; axis < 3; ++axis) {
+    vec3 beside(0), gap(0);
+    beside[axis] = high[axis] - low[axis], gap[axis] = 0.01f;
+    EXPECT_FALSE(apart(low, high, low + beside, high + beside)) << axis;
+    EXPECT_FALSE(apart(low, high, low - beside, high - beside)) << axis;
+    EXPECT_TRUE(apart(low, high, low + beside + gap, high + beside + gap)) << axis;
+    EXPECT_TRUE(apart(low, high, low - beside - gap, high - beside - gap)) << axis;
+  }
+  EXPECT_FALSE(apart(low, high, vec3(0), vec3(9))) << "one within the other";
+  EXPECT_FALSE(apart(low, high, vec3(NAN), vec3(NAN)));
 }
 
 TEST(Balls, ThatHoldAPlaceOrTouchABoxAreThoseOfAll) {

@@ -41,7 +41,8 @@ std::optional<float> passed(const StillTriangle& t, const vec3& from, const vec3
 
 std::optional<vec3> middle_within(const StillTriangle& t, const vec3& min, const vec3& max) {
   const vec3 middle = (t.a + t.b + t.c) / 3.0f;
-  if (glm::all(glm::greaterThanEqual(middle, min)) && glm::all(glm::lessThan(middle, max))) return middle;
+  const auto inside = [&](int c) { return min[c] <= middle[c] && middle[c] < max[c]; };
+  if (inside(0) && inside(1) && inside(2)) return middle;
   // Cut off at each side of the box in turn: a corner more each, at most
   std::array<vec3, 9> corners{t.a, t.b, t.c}, kept;
   std::size_t count = 3;

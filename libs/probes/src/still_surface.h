@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include <ssphh/geometry/box.h>
 #include <ssphh/probes/surface_lists.h>
 #include <ssphh/scene/query.h>
 
@@ -25,7 +26,7 @@ void visit_parts(const StillTriangle& whole, const vec3& min, const vec3& max, f
                  const Visit& visit) {
   const auto visit_part = [&](const auto& self, const StillTriangle& t) -> void {
     const vec3 low = glm::min(t.a, glm::min(t.b, t.c)), high = glm::max(t.a, glm::max(t.b, t.c));
-    if (glm::any(glm::greaterThan(low, max)) || glm::any(glm::lessThan(high, min))) return;
+    if (geometry::apart(low, high, min, max)) return;
     const vec3 ab = t.b - t.a, bc = t.c - t.b, ca = t.a - t.c;
     const float l0 = glm::dot(ab, ab), l1 = glm::dot(bc, bc), l2 = glm::dot(ca, ca);
     if (!(std::max(l0, std::max(l1, l2)) > edge * edge)) return visit(t);
