@@ -26,7 +26,7 @@ for frame, session.time in enumerate(times):
     if frame in (0, frames // 2, frames - 1):
         truth[session.time] = session.trace_irradiance(points, normals, spp=256)[1].mean()
         pictures[session.time] = session.render(
-            width=240 if example.small else 640, height=135 if example.small else 360, spp=8, camera=scene.cameras[-1].name)
+            width=96 if example.small else 640, height=54 if example.small else 360, spp=8, camera=scene.cameras[-1].name)
 for time, true in truth.items():
     found = light[list(times.astype(np.float32)).index(np.float32(time))]
     print(f"door at {time:.1f} s: the dark room gets {1e3 * found:.0f} mW/m2, path traced {1e3 * true:.0f}")
