@@ -7,7 +7,9 @@ const tool = process.env.SSPHH_TOOL, lookUp = process.env.SSPHH_LOOK_UP;
 assert(tool && lookUp, 'run tests/run TOOL LOOK_UP FOLDER');
 const folder = new URL('../../fixtures/', import.meta.url).pathname;
 
-export const scenes = ['cornell', 'two-rooms', 'random?seed=7'];
+/** And metres of a surfel in them, coarse: what is compared is one file's light in two languages. */
+const surfelSizes = { cornell: '0.5', 'two-rooms': '1', 'random?seed=7': '4' };
+export const scenes = Object.keys(surfelSizes);
 export const kinds = { points: ['--records', '200'], weights: ['--records', '0', '--fit'] };
 
 export function run(...words) {
@@ -28,7 +30,7 @@ export function made(name, make) {
 export function probeFile(scene, kind, extra = [], end = '.sphl') {
   return made(`${scene.replace(/\W+/g, '-')}-${kind}${extra.join('').replace(/\W+/g, '-')}${end}`, path =>
     run('bake', `builtin:${scene}`, '-o', path, '--operator', 'surfel', '--viz', 'off', '--quality', 'draft', '--probes', '12', ...kinds[kind],
-      '--surfel-size', scene.startsWith('random') ? '2' : '0.5', ...extra));
+      '--surfel-size', surfelSizes[scene], ...extra));
 }
 
 export function cookedFile(scene, kind, extra = [], cookOptions = ['--scene', `builtin:${scene}`, '--sight', '16']) {

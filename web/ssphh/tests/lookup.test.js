@@ -17,7 +17,7 @@ for (const scene of scenes) {
   for (const kind of Object.keys(kinds)) {
     test(`${scene}, ${kind}: the light of the C run-time`, () => {
       const path = cookedFile(scene, kind), light = openCookedSync(bytesOf(path));
-      const { positions, normals } = somePlaces(light, 6000, 1);
+      const { positions, normals } = somePlaces(light, 3000, 1);
       const lit = new Set();
       for (const place of ['still', 'open']) {
         const ours = light.irradianceBatch(positions, normals, undefined, place);

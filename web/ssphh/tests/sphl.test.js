@@ -44,7 +44,7 @@ test('XXH3 of 128 bits', () => {
 /** A small file with everything that there can be: hierarchy, matrices, records, direct light, emitted light, fitted points, a baseline. */
 const everything = () => made('everything.sphl', path => {
   run('bake', 'builtin:two-rooms', '-o', path, '--operator', 'path', '--gen', 'local', '--passes', '1', '--spp', '4', '--viz', 'path', '--viz-transfer',
-    '--viz-passes', '1', '--viz-spp', '1', '--probes', '6', '--degree', '2', '--records', '50', '--fit', '--quality', 'draft', '--light-mode', 'lamp=baked');
+    '--viz-passes', '1', '--viz-spp', '1', '--probes', '6', '--degree', '2', '--records', '50', '--fit', '--surfel-size', '1', '--quality', 'draft', '--light-mode', 'lamp=baked');
   run('hier', path, '-o', path);
 });
 const asJson = from => made(from.replace(/.*\//, '') + '.json', path => run('probe', 'convert', from, '-o', path));
@@ -202,7 +202,7 @@ test('hostile JSON files', () => {
     d => delete d.degree, d => (d.degree = 11), d => (d.degree = 3), d => (d.more = 1), d => (d.generator.operator = 'x'), d => (d.generator.passes = 0.5),
     d => (d.probes[0].radius = 0), d => (d.probes[1].position = [0, 1]), d => (d.probes[0].position[0] = 1e10), d => (d.probes[0].name = 'n'.repeat(1025)),
     d => (d.probes[0].groups = []), d => d.probes[2].groups[0].reflected.pop(), d => (d.probes[2].groups[0].reflected[1] = 'x'), d => (d.probes = 3),
-    d => (d.light_groups[0].scale = [1, -1, 1]), d => (d.light_groups[0].mode = 'off'), d => (d.surface[0].normal = [1, 1, 0]), d => (d.fitted[0].weights = [0.5]),
+    d => (d.light_groups[0].scale = [1, -1, 1]), d => (d.light_groups[0].mode = 'off'), d => (d.surface[0].normal = [1, 1, 0]), d => (d.fitted.find(p => p.probes.length > 1).weights = [0.5]),
     d => (d.fitted[0].probes = [6]), d => (d.surface[0].groups[0][1] = 40000), d => (d.probes.find(p => p.edges.length).edges[0].from = 77), d => delete d.hierarchy,
     d => d.probes.find(p => p.edges.length).edges.push(structuredClone(d.probes.find(p => p.edges.length).edges.at(-1))),
   ];
