@@ -73,29 +73,42 @@ class WrittenLight {
   geometry::TriangleTree tree_;
 };
 
-/// Over points that a camera's surroundings see: the ratio of means, and the mean error over the mean.
+/// Over traced points: the ratio of means, and the mean error over the mean.
 struct Comparison {
   vec3 ratio{0}, error{0};
   int points = 0;
 };
 
-Comparison compare_with_paths(const std::string& name, const std::string& camera, const WrittenLight& light,
-                              bool direct) {
+/// Points that a camera's surroundings see, and their light by paths.
+struct TracedPoints {
+  std::vector<rays::SurfacePoint> points;
+  std::vector<rays::IrradianceEstimate> light;
+};
+
+TracedPoints traced_points(const std::string& name, const std::string& camera) {
   const scene::Scene scene = scene::make_builtin(name);
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
   const trace::TransportScene source(geometry, scene);
   const vec3 eye(scene::camera_pose(scene, camera).world[3]);
-  const std::vector<rays::SurfacePoint> points =
-      study::reachable_points(source, std::span(&eye, 1), 0, {.count = 500, .seed = 4});
-  const std::vector<rays::IrradianceEstimate> truth =
-      trace::PathTracer(geometry, scene)
-          .surface_irradiance(points, {.max_depth = 25, .passes = 1, .spp = 512, .seed = 1}, {});
+  TracedPoints out;
+  out.points = study::reachable_points(source, std::span(&eye, 1), 0, {.count = 500, .seed = 4});
+  out.light = trace::PathTracer(geometry, scene)
+                  .surface_irradiance(out.points, {.max_depth = 25, .passes = 1, .spp = 512, .seed = 1}, {});
+  return out;
+}
+
+const TracedPoints& traced_cornell() {
+  static const TracedPoints traced = traced_points("cornell", "front");
+  return traced;
+}
+
+Comparison compare_with_paths(const TracedPoints& truth, const WrittenLight& light, bool direct) {
   Comparison out;
   vec3 sum(0), of_truth(0), error(0);
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (std::size_t i = 0; i < truth.points.size(); ++i) {
     vec3 found;
-    if (!light.at(points[i], found)) continue;
-    const vec3 e = truth[i].indirect + (direct ? truth[i].direct : vec3(0));
+    if (!light.at(truth.points[i], found)) continue;
+    const vec3 e = truth.light[i].indirect + (direct ? truth.light[i].direct : vec3(0));
     sum += found, of_truth += e, error += glm::abs(found - e), ++out.points;
   }
   out.ratio = sum / of_truth, out.error = error / of_truth;
@@ -128,18 +141,18 @@ class LightmapTool : public testing::Test {
 
 TEST_F(LightmapTool, HoldsTheIndirectLightOfPathsInCornell) {
   json_here(line("builtin:cornell", out_));
-  expect_near_paths(compare_with_paths("cornell", "front", {out_, stem_ + ".exr"}, false));
+  expect_near_paths(compare_with_paths(traced_cornell(), {out_, stem_ + ".exr"}, false));
 }
 
 TEST_F(LightmapTool, HoldsTheIndirectLightOfPathsInARoomBesideADarkOne) {
   json_here(line("builtin:two-rooms", out_));
-  expect_near_paths(compare_with_paths("two-rooms", "room-a", {out_, stem_ + ".exr"}, false));
+  expect_near_paths(compare_with_paths(traced_points("two-rooms", "room-a"), {out_, stem_ + ".exr"}, false));
 }
 
 TEST_F(LightmapTool, HoldsAllLightWithDirect) {
   const json::Value said = json_here(line("builtin:cornell", out_, {"--direct", "--direct-samples", "64"}));
   EXPECT_EQ(said["direct_light_of"].size(), 1u);
-  expect_near_paths(compare_with_paths("cornell", "front", {out_, stem_ + ".exr"}, true));
+  expect_near_paths(compare_with_paths(traced_cornell(), {out_, stem_ + ".exr"}, true));
 }
 
 TEST_F(LightmapTool, TellsWhatItWroteAndTheSceneTellsItToo) {

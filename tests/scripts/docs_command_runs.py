@@ -24,7 +24,7 @@ NOT_HERE = [
 # In place of what a line says, or behind it.
 PICTURE = {"--width": "16", "--height": "9", "--spp": "1"}
 LESS = {
-    "bake": {"--quality": "draft", "--face": "4", "--spp": "4", "--directions": "64", "--records": "64", "--surfel-size": "0.5"},
+    "bake": {"--quality": "draft", "--face": "4", "--spp": "1", "--directions": "64", "--link-rays": "8", "--records": "64", "--surfel-size": "0.5"},
     "render": PICTURE,
     "truth": {"--width": "16", "--height": "9", "--spp": "2"},
     "measure": {"--points": "8", "--truth-spp": "4", "--max-depth": "3"},
@@ -35,7 +35,7 @@ LESS = {
     "probe preview": {"--width": "16"},
     "sphl sample": {"--size": "8", "--spp": "1"},
 }
-ONLY_NEW = {"--quality", "--face", "--spp", "--directions", "--records", "--surfel-size"}  # of bake: not with --update
+ONLY_NEW = {"--quality", "--face", "--spp", "--directions", "--link-rays", "--records", "--surfel-size"}  # of bake: not with --update
 ONLY_PATHS = {"--face", "--spp"}
 FOR_PLACEHOLDERS = {"SCENE": "room.glb", "OUT": "out", "OUT.glb": "out.glb", "FILE.sphl": "day.sphl", "P.sphl": "day.sphl"}
 

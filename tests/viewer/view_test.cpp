@@ -84,7 +84,7 @@ TEST_F(View, AnOpenedDoorBrightensTheRoomBehindIt) {
 TEST_F(View, MouseAndKeysChangeWhatIsShown) {
   // A drag turns the view, a key shows the probes, Tab hides the panels, undo takes an edit back.
   run_json({"view", "builtin:two-rooms", "--size", "480x300", "--tonemap", "clip", "--records", "0",
-            "--script",
+            "--antialias", "off", "--script",
             script("settle\nscreenshot " + path("a.png") + "\nsettle\nscreenshot " + path("same.png") +
                    "\ndrag 400 150 460 170\nsettle\nscreenshot " + path("turned.png") +
                    "\nkey P\nsettle\nscreenshot " + path("balls.png") +
@@ -261,7 +261,7 @@ TEST_F(View, AKilledWorkerOfItsFarmCostsARetryAndNoBit) {
     return script("settle\ngen\nsettle\nsave " + path(name) + "\nquit\n");
   };
   const std::vector<std::string> small = {"view",    "builtin:two-rooms", "--size", "64x64",  "--probes",
-                                          "auto:3",  "--records",         "0",      "--json", "--no-panels",
+                                          "auto:6",  "--records",         "0",      "--json", "--no-panels",
                                           "--script"};
   test::ToolProcess viewer(
       joined(small, {bake("farm.sphl"), "--local", "2", "--cache", "none", "--progress", "plain"}));
