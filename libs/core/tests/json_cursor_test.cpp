@@ -1,3 +1,5 @@
+#include <vector>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -138,6 +140,18 @@ TEST(JsonCursor, ArraysHaveAsManyElementsAsAreWanted) {
   EXPECT_EQ(said_of("[1,2,3]", third), "no error");
   EXPECT_EQ(said_of("[1,2]", third), "f: v: must have at least 3 elements, not 2");
   EXPECT_EQ(said_of("{\"2\":3}", third), "f: v: must be an array, not object");
+}
+
+TEST(JsonCursor, ElementsAreAllInTheirOrder) {
+  const auto numbers = [](const Cursor& v) {
+    std::vector<float> found;
+    for (const Cursor& element : elements(v, 2, 3)) found.push_back(element.number());
+    EXPECT_EQ(found, (std::vector<float>{3, 1, 2}));
+  };
+  EXPECT_EQ(said_of("[3,1,2]", numbers), "no error");
+  EXPECT_EQ(said_of("[3]", numbers), "f: v: must have at least 2 elements, not 1");
+  EXPECT_EQ(said_of("[3,1,2,4]", numbers), "f: v: must have at most 3 elements, not 4");
+  EXPECT_EQ(said_of("[3,true]", numbers), "f: v[1]: must be a number, not boolean");
 }
 
 TEST(JsonCursor, MembersThatAreMissingAreWhatStandsForThem) {

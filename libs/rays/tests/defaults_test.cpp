@@ -1,5 +1,7 @@
 /// What is meant where nobody says anything.
 
+#include <span>
+
 #include <gtest/gtest.h>
 
 #include "dark_space.h"
@@ -119,10 +121,11 @@ TEST(RayDefaults, OfAWorldThatStandsStill) {
   EXPECT_FALSE(wall.group_emits_from(0, 1));
   EXPECT_EQ(wall.rays_traced(), 0u);
   const RayQuery through{vec3(0), vec3(1, 0, 0), 2}, before{vec3(0), vec3(1, 0, 0), 0.5f};
-  std::uint8_t blocked[2] = {7, 7};
-  wall.occluded(0, std::vector{through, before}, blocked);
+  std::uint8_t blocked[3] = {7, 7, 7};
+  wall.occluded(0, std::vector{through, before}, std::span(blocked).first(2));
   EXPECT_EQ(blocked[0], 1);
   EXPECT_EQ(blocked[1], 0);
+  EXPECT_EQ(blocked[2], 7) << "behind those that are asked";
 }
 
 }  // namespace

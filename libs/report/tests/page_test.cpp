@@ -122,6 +122,12 @@ TEST(Page, IsOneFileAndEscapesWhatItIsGiven) {
   EXPECT_THAT(page, HasSubstr("<title>A &lt;small> report</title>"));
   EXPECT_THAT(page, Not(HasSubstr("it failed </script>")));
   EXPECT_THAT(page, Not(HasSubstr("%%")));
+  const auto last = [&](const std::string& tag) {
+    const std::size_t begin = page.rfind("<" + tag + ">");
+    return page.substr(begin, page.find("</" + tag + ">", begin) - begin);
+  };
+  EXPECT_THAT(last("style"), HasSubstr("#stage {"));
+  EXPECT_THAT(last("script"), HasSubstr("addEventListener"));
   for (const char* remote : {"src=", "href=", "https:", "@import", "url("})
     EXPECT_THAT(page, Not(HasSubstr(remote)));
 }

@@ -1,6 +1,9 @@
 /// Photometric files: hand-made ones against what they say, broken ones, and there and back.
 
+#include <filesystem>
+
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <ssphh/core/file.h>
@@ -154,6 +157,19 @@ TEST(Ies, WritesWhatItReads) {
     EXPECT_EQ(again, once) << text;
     EXPECT_NE(text.find("[LUMINAIRE] a \"name\" of two lines\n"), text.npos);
   }
+}
+
+TEST(Ies, TakesFilesOfSixteenMebibytesAndNoMore) {
+  const test::TempDir folder;
+  const std::string path = folder / "long.ies";
+  write_file(path, file("2 1 1 2 0 0 0 1 1 0\n0 90 0 1 1"));
+  const auto said_of = [&](std::uintmax_t size) {
+    std::filesystem::resize_file(path, size);
+    return message_of([&] { read_ies(path); });
+  };
+  EXPECT_EQ(said_of(16777217), path + ": is too large: 16777217 bytes, the limit is 16777216");
+  EXPECT_THAT(said_of(16777216), testing::Not(testing::HasSubstr("too large")))
+      << "that is not what is wrong";
 }
 
 TEST(Ies, IsNamedAsItsFile) {
