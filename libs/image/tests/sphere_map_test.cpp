@@ -108,6 +108,10 @@ TEST(SampleEquirect, IsBilinearAndWraps) {
   EXPECT_NEAR(sample_equirect(image, equirect_direction(4.0f / 8, 2.0f / 4)).x, 0.25f * (11 + 12 + 19 + 20),
               1e-4f);
   EXPECT_NEAR(sample_equirect(image, equirect_direction(0.0f, 1.5f / 4)).x, 0.5f * (8 + 15), 1e-4f);
+  EXPECT_NEAR(sample_equirect(image, equirect_direction(0.25f / 8, 1.5f / 4)).x, 0.75f * 8 + 0.25f * 15,
+              1e-4f);
+  EXPECT_NEAR(sample_equirect(image, equirect_direction(7.75f / 8, 1.5f / 4)).x, 0.25f * 8 + 0.75f * 15,
+              1e-4f);
   // At the pole: the mean of the pixel and the one half a turn away.
   EXPECT_NEAR(sample_equirect(image, {0, 1, 0}).x, 0.25f * (3 + 4 + 7 + 0), 1e-4f);
 }
