@@ -236,6 +236,16 @@ TEST(Relight, ScalingAGroupIsASumOverGroups) {
   }
 }
 
+TEST(Relight, OfAProbeWithMoreGroupsThanTheSetLeavesItAsItWas) {
+  ProbeSet set = random_set(2, 3, 2, 2);
+  hier(set, {});
+  const vec3 before = set.light_groups[0].scale;
+  set.probes[1].groups.emplace_back();
+  EXPECT_THROW(relight(set, "lamp 0", before + 1.0f), Error);
+  EXPECT_EQ(set.light_groups[0].scale, before);
+  EXPECT_TRUE(set.hierarchy.has_value());
+}
+
 TEST(Relight, UnknownGroupListsTheKnownOnes) {
   ProbeSet set = random_set(2, 1, 0, 2);
   try {
