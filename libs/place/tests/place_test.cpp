@@ -325,7 +325,8 @@ TEST(Place, SaysWhatIsWrong) {
   EXPECT_THAT(message([](PlaceParams& p) { p.levels = 9; }), HasSubstr("levels"));
   EXPECT_THAT(message([](PlaceParams& p) { p.count = 3; }), HasSubstr("SPHLs of its own"));
   EXPECT_THAT(message([](PlaceParams& p) { p.count = 5000; }), HasSubstr("more than the 4096"));
-  EXPECT_THAT(message([](PlaceParams& p) { p.spacing = 3, p.count = 4000; }), HasSubstr("find a place"));
+  EXPECT_THAT(message([](PlaceParams& p) { p.spacing = 3, p.count = 4000; }),
+              HasSubstr("find a place (use a smaller spacing)"));
   EXPECT_THAT(message([](PlaceParams& p) { p.interest = {vec3(NAN)}; }), HasSubstr("not finite"));
   const Given empty{scene::Scene{}};
   EXPECT_THROW(place_probes(empty.source, {}), Error);
