@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <memory>
+#include <span>
+
 #include <gtest/gtest.h>
 
 #include <ssphh/scene/primitives.h>
@@ -63,6 +67,35 @@ TEST(DefaultView, StandsInARoomAndLooksAcrossIt) {
 
 TEST(DefaultView, DoesNotStandWhereNoLightGets) {
   EXPECT_TRUE(shows_box(view_of(furnished_room(1, false)), half));
+}
+
+/// The scene with a lamp that is no surface and lights all of it alike.
+class LampSource : public test::TriangleSource {
+ public:
+  LampSource(const Scene& scene, const vec3& irradiance) : TriangleSource(scene), irradiance_(irradiance) {}
+  const std::vector<std::string>& light_groups() const override { return groups_; }
+  std::unique_ptr<rays::DirectLight> direct_light(std::span<const scene::LightState>, std::span<const mat4>,
+                                                  const scene::EnvironmentState&) const override {
+    return std::make_unique<Even>(irradiance_);
+  }
+
+ private:
+  struct Even final : rays::DirectLight {
+    explicit Even(const vec3& of) : irradiance_(of) {}
+    void irradiance(int, std::span<const rays::SurfacePoint>, std::span<vec3> out) const override {
+      std::ranges::fill(out, irradiance_);
+    }
+    vec3 irradiance_;
+  };
+  vec3 irradiance_;
+  std::vector<std::string> groups_ = {"lamp"};
+};
+
+TEST(DefaultView, StandsWhereALampLightsInWhateverColour) {
+  const Scene room = furnished_room(1, false);
+  for (const vec3& color : {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1)})
+    EXPECT_TRUE(is_within(eye_of(default_view(room, LampSource(room, color))), half));
+  EXPECT_FALSE(is_within(eye_of(default_view(room, LampSource(room, vec3(0)))), half));
 }
 
 TEST(DefaultView, StandsBeforeThings) {
