@@ -2,7 +2,6 @@
 #include <filesystem>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <ssphh/core/file.h>
 #include <ssphh/core/log.h>
@@ -13,20 +12,6 @@
 #include "model/overlay_file.h"
 
 namespace ssphh::viewer {
-namespace {
-
-/// What a file of the scene cannot give back: groups whose surfaces a factor of 0 takes all light from.
-std::string put_out(const Document& document) {
-  const std::vector<std::string> kept = scene::light_groups(document.edited());
-  std::vector<std::string> lost = scene::light_groups(*document.scene);
-  std::erase_if(lost, [&](const std::string& group) { return std::ranges::count(kept, group) > 0; });
-  if (lost.empty()) return {};
-  return fmt::format("; in it {}, at × 0, {} no light group{} any more: give a little light to keep {}",
-                     fmt::join(lost, ", "), lost.size() == 1 ? "is" : "are", lost.size() == 1 ? "" : "s",
-                     lost.size() == 1 ? "it" : "them");
-}
-
-}  // namespace
 
 void App::say(const std::string& text) {
   message = text;
@@ -92,8 +77,7 @@ void App::save_scene(const std::string& file) {
   written("saved", file);
   remember_scene(file);
   const std::filesystem::path path = std::filesystem::absolute(file);
-  say(fmt::format("saved {} in {}{}", path.filename().string(), path.parent_path().string(),
-                  put_out(document)));
+  say(fmt::format("saved {} in {}", path.filename().string(), path.parent_path().string()));
 }
 
 void App::save_probes(const std::string& file) {

@@ -97,7 +97,8 @@ void App::recover(const Kept& kept) {
   job.cancel();
   if (kept.scene) {
     // All that an overlay or options had added is in the file.
-    take_scene(kept.source, scene_io::load_scene(kept.with_ending(".glb").string()));
+    take_scene(kept.source,
+               scene_io::load_scene(kept.with_ending(".glb").string(), {.keep_dark_light = true}));
     document.saved = std::numeric_limits<std::uint64_t>::max();  // of no state
     document.file = kept.file;
     document.recovered = true;

@@ -26,7 +26,7 @@ class SceneFields {
 
   void members(const std::string& at, scene::Scene& scene) {
     auto& [name, textures, materials, meshes, nodes, instances, cameras, lights, sphls, animations,
-           environment, light_modes, ignored] = scene;
+           environment, light_modes, dark_groups, ignored] = scene;
     visit_(at + "name", name);
     items(at + "textures", textures);
     items(at + "materials", materials);
@@ -39,6 +39,7 @@ class SceneFields {
     items(at + "animations", animations);
     if (environment) members(at + "environment.", *environment);
     items(at + "light_modes", light_modes);
+    visit_(at + "dark_groups", dark_groups);
     visit_(at + "ignored", ignored);
   }
 

@@ -120,6 +120,7 @@ inline std::string scene_text(const scene::Scene& scene) {
   std::string text, object;
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const auto& [path, value] = fields[i];
+    if (path == "dark_groups" && value.empty()) continue;  // as in nearly all scenes
     const std::size_t dot = path.rfind("].");
     const std::string of =
         dot == std::string::npos ? path.substr(0, path.find('.')) : path.substr(0, dot + 1);

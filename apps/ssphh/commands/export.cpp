@@ -83,8 +83,9 @@ std::vector<std::string> export_formats() {
 
 ExportResult run_export(const ExportOptions& o, const Control&) {
   check_options(o);
-  const scene::Scene scene =  // a copy as glTF is no picture, and stays as it was
-      o.to == "gltf" ? load_scene(o.picture.scene) : load_lit_scene(o.picture.scene);
+  SceneOptions options = o.picture.scene;
+  options.keep_dark_light = o.to == "gltf";  // a copy as glTF is no picture, and stays as it was
+  const scene::Scene scene = o.to == "gltf" ? load_scene(options) : load_lit_scene(options);
   return {write(o, scene), scene::triangle_count(scene), scene::scene_hash(scene)};
 }
 

@@ -65,6 +65,7 @@ viewer::ViewerReport run_view(const ViewOptions& o, const Control& control) {
     // The overlay was named for the first scene; one that is dropped later has its own.
     if (source != o.scene.source) scene.overlay.clear();
     scene.source = source;
+    scene.keep_dark_light = true;
     return load_lit_scene(scene);
   };
   const std::optional<FarmSession> farm = farm_session(o.farm);

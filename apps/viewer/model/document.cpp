@@ -61,7 +61,7 @@ View start_view(const Document& document, const std::string& camera) {
 }
 
 scene::Scene scene_to_save(const Document& document) {
-  scene::Scene scene = document.edited();
+  scene::Scene scene = edited_scene(*document.opened, document.edits(), document.time, DarkLight::kept);
   const auto by_node = [](const auto& a, const auto& b) { return a.node < b.node; };
   std::ranges::stable_sort(scene.lights, by_node);
   std::ranges::stable_sort(scene.sphls, by_node);

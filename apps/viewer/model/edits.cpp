@@ -116,6 +116,7 @@ Edits edits_of(const scene::Scene& scene) {
     const scene::Light& light = scene.lights[i];
     edits.lights.push_back({{}, light.color, light.intensity, true, static_cast<int>(i), lamp_of(light)});
   }
+  for (const std::string& group : scene.dark_groups) edits.groups[group] = vec3(0);
   edits.materials = scene.materials;
   for (std::size_t i = 0; i < scene.sphls.size(); ++i) {
     const scene::Sphl& sphl = scene.sphls[i];
@@ -193,10 +194,11 @@ scene::Scene with_materials(scene::Scene scene, const Edits& edits) {
   return scene;
 }
 
-scene::Scene edited_scene(scene::Scene scene, const Edits& edits, float time) {
+scene::Scene edited_scene(scene::Scene scene, const Edits& edits, float time, DarkLight dark) {
   scene = with_lamps(with_materials(std::move(scene), edits), edits);
   const scene::LightingState lighting = edited_lighting(scene, edits, time);
-  scene = scene::with_lighting(std::move(scene), lighting);
+  scene = dark == DarkLight::kept ? scene::keeping_dark_light(std::move(scene), lighting)
+                                  : scene::with_lighting(std::move(scene), lighting);
   scene.sphls = edited_sphls(scene, edits);
   scene.cameras = edited_cameras(scene, edits);
   return scene;

@@ -73,9 +73,13 @@ bool has_lamps(const scene::Scene& scene, const scene::Scene& opened, const Edit
 /// lamps.
 scene::LightingState edited_lighting(const scene::Scene& scene, const Edits& edits, float time);
 
+/// What light groups at factor 0 would emit: kept, for files, or out of the scene, for renderers.
+enum class DarkLight { kept, out };
+
 /// The scene as it was opened with all edits done. A light that moved stands still at its place, on a node of
 /// its own, as does an SPHL and a camera; what was not edited stays as it is, to the bit.
-scene::Scene edited_scene(scene::Scene opened, const Edits& edits, float time);
+scene::Scene edited_scene(scene::Scene opened, const Edits& edits, float time,
+                          DarkLight dark = DarkLight::out);
 
 /// With its lights, groups and materials alone as they are in the scene: what decides the surfaces' light
 /// transport, but no lamp.

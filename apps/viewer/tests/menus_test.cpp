@@ -7,6 +7,7 @@
 
 #include <ssphh/core/file.h>
 #include <ssphh/probes/probe_file.h>
+#include <ssphh/scene_io/load.h>
 
 #include "panel_stage.h"
 
@@ -66,14 +67,23 @@ TEST_F(Menus, AFileThatIsThereIsReplacedOnceTheButtonIsPressedAgain) {
   EXPECT_FALSE(shows("Replace")) << "another file was asked about";
 }
 
-TEST_F(Menus, SavingTellsWhichLightGroupsTheFileLoses) {
-  app().edit("dim", [](Edits& e) { e.groups["room A ceiling"] = vec3(0.01f), e.groups["lamp"] = vec3(0); });
-  app().save_scene("kept.glb");
-  EXPECT_THAT(app().message, testing::EndsWith(dir_.path().string()));
-  app().edit("off", [](Edits& e) { e.groups["room A ceiling"] = vec3(0); });
-  for (const char* file : {"lost.glb", "other.ssphh.json"}) {
+TEST_F(Menus, LightGroupsAtFactor0AreSavedAndCanBeTurnedUpAgain) {
+  app().take_document(document("gallery1"));
+  const Hash128 lit = scene::scene_hash(app().document.edited());
+  app().edit("off", [](Edits& e) { e.groups["cove"] = e.groups["back"] = vec3(0); });
+  const Hash128 dark = scene::scene_hash(app().document.edited());
+  EXPECT_NE(dark, lit);
+  for (const char* file : {"dark.glb", "off.ssphh.json"}) {
     app().save_scene(file);
-    EXPECT_THAT(app().message, testing::HasSubstr("room A ceiling, at × 0, is no light group any more"));
+    EXPECT_EQ(scene::scene_hash(scene_io::load_scene(file)), dark) << file << ": as everybody reads it";
+    const Document again = make_document(file, scene_io::load_scene(file, {.keep_dark_light = true}), 0);
+    EXPECT_EQ(scene::scene_hash(again.edited()), dark) << file;
+    EXPECT_EQ(scene::light_hash(*again.opened), scene::light_hash(scene_io::load_scene(file)))
+        << file << ": probes that were baked of it are taken";
+    Edits edits = again.edits();
+    EXPECT_EQ(edits.groups, app().document.edits().groups) << file;
+    for (auto& [group, factor] : edits.groups) factor = vec3(1);
+    EXPECT_EQ(scene::scene_hash(edited_scene(*again.opened, edits, 0)), lit) << file;
   }
 }
 

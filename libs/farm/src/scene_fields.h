@@ -69,7 +69,8 @@ void fields(auto& io, auto& m, const scene::GroupMode*) {
 }
 void fields(auto& io, auto& s, const scene::Scene*) {
   io(s.name), io(s.textures), io(s.materials), io(s.meshes), io(s.nodes), io(s.instances), io(s.cameras);
-  io(s.lights), io(s.sphls), io(s.animations), io(s.environment), io(s.light_modes), io(s.ignored);
+  io(s.lights), io(s.sphls), io(s.animations), io(s.environment), io(s.light_modes);
+  io(s.dark_groups), io(s.ignored);
 }
 
 }  // namespace ssphh::farm

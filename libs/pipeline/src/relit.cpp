@@ -18,7 +18,7 @@ probes::ProbeSet baked_session(const transport::RelightSession& session, const s
                                const std::vector<std::string>& groups, probes::LightOperator op,
                                const Control& control) {
   scene::LightingState unscaled = session.lighting();
-  unscaled.group_scales.assign(unscaled.group_scales.size(), vec3(1));
+  unscaled.group_scales = scene::lighting_at(scene).group_scales;  // 1, of dark groups 0
   probes::GeneratorInfo generator;
   generator.op = op;
   generator.scene = scene.name;

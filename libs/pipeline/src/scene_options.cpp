@@ -31,6 +31,7 @@ scene::Scene load_file(const SceneOptions& options) {
   load.environment = options.environment;
   load.environment_intensity = options.environment_intensity;
   load.environment_rotation = glm::radians(options.environment_rotation);
+  load.keep_dark_light = options.keep_dark_light;
   load.sun_sky = sun_sky_of(options.sky);
   scene::Scene scene = scene_io::load_scene(options.source, load);
   tell_of_sun(scene);

@@ -47,8 +47,7 @@ LightMode usual_light_mode(const Scene& scene, const std::string& group) {
   const bool lamps =
       std::ranges::any_of(scene.lights, [&](const Light& light) { return light_group(light) == group; });
   const bool surfaces = std::ranges::any_of(scene.instances, [&](const Instance& instance) {
-    const int material = instance_material(scene, instance);
-    return material >= 0 && scene.materials[material].emissive() && light_group(scene, instance) == group;
+    return is_emitter(scene, instance) && light_group(scene, instance) == group;
   });
   const bool alone = !lamps && !surfaces;
   return alone && !casts_sharp_shadows(*scene.environment) ? LightMode::diffuse : LightMode::realtime;

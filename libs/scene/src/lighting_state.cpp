@@ -41,7 +41,8 @@ LightingState lighting_at(const Scene& scene, float time) {
     const mat4 placed = light.node >= 0 ? world[light.node] : mat4(1);
     state.lights.push_back({placed, light.color, light.intensity, emission_at(light.emission, time)});
   }
-  state.group_scales.assign(light_groups(scene).size(), vec3(1));
+  for (const std::string& group : light_groups(scene))
+    state.group_scales.emplace_back(!is_dark(scene, group));
   return state;
 }
 

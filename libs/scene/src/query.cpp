@@ -81,6 +81,15 @@ std::string light_group(const Scene& scene, const Instance& instance) {
   return name.empty() ? "emitter" : name;
 }
 
+bool is_dark(const Scene& scene, const std::string& group) {
+  return std::ranges::find(scene.dark_groups, group) != scene.dark_groups.end();
+}
+
+bool is_emitter(const Scene& scene, const Instance& instance) {
+  return shading_material(scene, instance).emissive() ||
+         (!scene.dark_groups.empty() && is_dark(scene, light_group(scene, instance)));
+}
+
 std::vector<std::string> light_groups(const Scene& scene) {
   std::vector<std::string> groups;
   std::unordered_set<std::string> seen;
@@ -89,7 +98,7 @@ std::vector<std::string> light_groups(const Scene& scene) {
   };
   for (const Light& light : scene.lights) add(light_group(light));
   for (const Instance& instance : scene.instances) {
-    if (shading_material(scene, instance).emissive()) add(light_group(scene, instance));
+    if (is_emitter(scene, instance)) add(light_group(scene, instance));
   }
   if (scene.environment) add(light_group(*scene.environment));
   if (groups.size() > max_light_groups) {

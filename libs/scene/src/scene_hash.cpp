@@ -1,3 +1,5 @@
+#include <ssphh/scene/with_lighting.h>
+
 #include "digests.h"
 
 namespace ssphh::scene {
@@ -44,9 +46,12 @@ void add_environment(Hasher& h, const Scene& scene) {
   if (scene.environment) add(h, *scene.environment);
 }
 
-}  // namespace
+/// Scenes without any keep the hashes that probe files know them by.
+void add_dark_groups(Hasher& h, const Scene& scene) {
+  for (const std::string& group : scene.dark_groups) h.text("dark").text(group);
+}
 
-Hash128 scene_hash(const Scene& scene) {
+Hash128 seen_hash(const Scene& scene) {
   const Contents contents(scene);
   Hasher h;
   add_all(h, scene.nodes);
@@ -57,10 +62,11 @@ Hash128 scene_hash(const Scene& scene) {
   add_all(h, scene.sphls);
   for (const Animation& animation : scene.animations) add_all(h, animation.channels);
   add_environment(h, scene);
+  add_dark_groups(h, scene);
   return h.finish();
 }
 
-Hash128 light_hash(const Scene& scene) {
+Hash128 lit_hash(const Scene& scene) {
   const Contents contents(scene);
   const std::vector<Hash128> nodes = node_digests(scene);
   const auto stands = [&](Hasher& h, int node) { add(h, node < 0 ? Hash128{} : nodes[node]); };
@@ -77,7 +83,18 @@ Hash128 light_hash(const Scene& scene) {
     add(h, light);
   }
   add_environment(h, scene);
+  add_dark_groups(h, scene);
   return h.finish();
+}
+
+}  // namespace
+
+Hash128 scene_hash(const Scene& scene) {
+  return scene.dark_groups.empty() ? seen_hash(scene) : seen_hash(without_dark_light(scene));
+}
+
+Hash128 light_hash(const Scene& scene) {
+  return scene.dark_groups.empty() ? lit_hash(scene) : lit_hash(without_dark_light(scene));
 }
 
 }  // namespace ssphh::scene

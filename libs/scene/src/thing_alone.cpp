@@ -66,6 +66,7 @@ Scene thing_alone(Scene scene, int node) {
   });
   scene.environment.reset();
   scene.light_modes.clear();
+  scene.dark_groups.clear();
   scene.cameras.clear();
   scene.sphls.clear();
   return scene;

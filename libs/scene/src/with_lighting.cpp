@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -60,6 +61,33 @@ Scene with_lighting(Scene scene, const LightingState& state) {
       scene.environment->sun_sky.reset();
     }
   }
+  // No factor gives back what was put out before.
+  scene.dark_groups.clear();
+  const std::vector<std::string> shining = light_groups(scene);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (state.group_scales[g] == vec3(0) || std::ranges::find(shining, groups[g]) == shining.end())
+      scene.dark_groups.push_back(groups[g]);
+  }
+  return scene;
+}
+
+Scene without_dark_light(Scene scene) {
+  if (scene.dark_groups.empty()) return scene;
+  const LightingState state = lighting_at(scene);
+  return with_lighting(std::move(scene), state);
+}
+
+Scene keeping_dark_light(Scene scene, LightingState state) {
+  const std::vector<std::string> groups = light_groups(scene);
+  check_lighting(state, {scene.lights.size(), groups.size(), std::numeric_limits<std::size_t>::max()});
+  std::vector<std::string> dark;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (state.group_scales[g] != vec3(0)) continue;
+    dark.push_back(groups[g]);
+    state.group_scales[g] = vec3(1);
+  }
+  scene = with_lighting(std::move(scene), state);
+  scene.dark_groups = std::move(dark);
   return scene;
 }
 
@@ -70,6 +98,7 @@ Scene lit_by_sphere(const Scene& scene, float time, const vec3& center, float ra
   Scene lit = with_lighting(scene, dark);
   lit.lights.clear();
   lit.environment.reset();
+  lit.dark_groups.clear();
   Light& light = lit.lights.emplace_back();
   light.name = "emitter", light.type = LightType::sphere;
   light.radius = radius, light.intensity = radiance;

@@ -143,6 +143,7 @@ std::vector<Field> changed_scenes() {
 bool invisible(const std::string& path) {
   static const std::regex patterns(
       "name|ignored.*"                                                 // of the scene: for people
+      "|dark_groups"                                                   // a name of none; others: DarkGroups
       "|light_modes.*"                                                 // what is to be kept of the light
       "|(textures|materials|meshes|animations)\\[.*\\]\\.name"         // for people
       "|(meshes|textures)\\[1\\]\\..*"                                 // not used

@@ -41,7 +41,7 @@ scene::Scene load_gltf(std::span<const std::byte> data, const std::filesystem::p
   import_materials(import);
   import_nodes(import);
   import_animations(import);
-  import_light_modes(import);
+  import_light_groups(import);
   pose_meshes(import, time);
   if (scene.name.empty()) scene.name = path.stem().string();
   scene.ignored = document.ignored.lines();

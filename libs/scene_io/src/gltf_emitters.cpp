@@ -11,7 +11,7 @@
 #include "gltf_names.h"
 #include "gltf_parts.h"
 #include "printable.h"
-#include "read_light_modes.h"
+#include "read_light_groups.h"
 #include "uri.h"
 
 namespace ssphh::scene_io {
@@ -160,13 +160,14 @@ void import_environment(GltfImport& import, const json::Cursor& gltf_scene) {
   import.scene.environment = std::move(out);
 }
 
-void import_light_modes(GltfImport& import) {
+void import_light_groups(GltfImport& import) {
   GltfDocument& document = import.document;
   if (document.count("scenes") == 0) return;
   const int shown = document.reference(document.root(), "scene", "scenes").value_or(0);
   const auto extras = extra(document.item("scenes", shown), "ssphh");
-  if (const auto modes = extras ? extras->find("light_modes") : std::nullopt)
-    read_light_modes(import.scene, *modes);
+  if (!extras) return;
+  if (const auto dark = extras->find("dark_groups")) read_dark_groups(import.scene, *dark);
+  if (const auto modes = extras->find("light_modes")) read_light_modes(import.scene, *modes);
 }
 
 }  // namespace ssphh::scene_io

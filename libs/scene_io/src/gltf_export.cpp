@@ -49,6 +49,7 @@ std::vector<std::byte> export_glb(const scene::Scene& scene, const json::Value& 
     shown["extras"]["ssphh"]["environment"] = std::move(environment);
   if (json::Value modes = export_light_modes(out); !modes.is_null())
     shown["extras"]["ssphh"]["light_modes"] = std::move(modes);
+  for (const std::string& group : scene.dark_groups) shown["extras"]["ssphh"]["dark_groups"].push_back(group);
   if (extras.is_object())
     for (const auto& [name, value] : extras.members()) shown["extras"]["ssphh"][name] = value;
   if (shown.is_null()) shown = json::Value::object();

@@ -59,8 +59,8 @@ FileOf files_beside(const GltfDocument& document);
 scene::Camera import_camera(const json::Cursor& camera);
 /// extras.ssphh.environment of the default scene.
 void import_environment(GltfImport& import, const json::Cursor& gltf_scene);
-/// extras.ssphh.light_modes of the default scene, whose lights are all there.
-void import_light_modes(GltfImport& import);
+/// extras.ssphh.light_modes and dark_groups of the default scene, whose lights are all there.
+void import_light_groups(GltfImport& import);
 
 /// Keyframes; marks animated nodes and what is below them as movable.
 void import_animations(GltfImport& import);

@@ -11,6 +11,7 @@
 #include <ssphh/image/io.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/scene/query.h>
+#include <ssphh/scene/with_lighting.h>
 #include <ssphh/scene_io/gltf.h>
 #include <ssphh/scene_io/load.h>
 #include <ssphh/scene_io/obj.h>
@@ -143,6 +144,7 @@ Scene load_scene(const std::string& source, const LoadOptions& options) {
     log_warning("{}: the light mode of \"{}\" is not used: its lights were replaced", source, group);
 
   for (const auto& repair : scene::validate(scene)) log_warning("{}: {}", source, repair);
+  if (!options.keep_dark_light) scene = scene::without_dark_light(std::move(scene));
   if (scene.instances.empty()) log_warning("{}: shows no triangles", source);
   if (!scene.ignored.empty()) log_warning("{}: ignored: {}", source, fmt::join(scene.ignored, ", "));
   check_size(scene, source);

@@ -16,7 +16,7 @@
 
 #include "overlay_entries.h"
 #include "overlay_paths.h"
-#include "read_light_modes.h"
+#include "read_light_groups.h"
 #include "read_tone_curves.h"
 
 namespace ssphh::scene_io {
@@ -181,7 +181,7 @@ void leave_out(Scene& scene, const json::Cursor& without) {
   erase("sphls", scene.sphls);
 }
 
-// "light_factors": a factor on all that a light group emits.
+// "light_factors": a factor on all that a light group emits; 0 makes it dark.
 void scale_groups(Scene& scene, const json::Cursor& factors) {
   const std::vector<std::string> groups = scene::light_groups(scene);
   scene::LightingState state = scene::lighting_at(scene);
@@ -195,7 +195,7 @@ void scale_groups(Scene& scene, const json::Cursor& factors) {
     if (!glm::all(glm::greaterThanEqual(value, vec3(0)))) factor.fail("must not be below 0");
     state.group_scales[found - groups.begin()] = value;
   }
-  scene = scene::with_lighting(std::move(scene), state);
+  scene = scene::keeping_dark_light(std::move(scene), std::move(state));
 }
 
 // A number, or a word that unit.h knows.
@@ -259,7 +259,6 @@ void apply(Scene& scene, std::string_view text, const std::filesystem::path& pat
     if (!scene.environment) turn->fail("the scene has no environment");
     scene.environment->rotation += glm::radians(turn->number(-3600, 3600));
   }
-  // A surface that a factor turns off is in no group any more.
   if (const auto modes = root.find("light_modes")) read_light_modes(scene, *modes);
   if (const auto factors = root.find("light_factors")) scale_groups(scene, *factors);
 }

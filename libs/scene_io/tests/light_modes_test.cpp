@@ -1,9 +1,10 @@
-/// Modes of light groups in overlays and in glTF files.
+/// Modes of light groups, and dark ones, in overlays and in glTF files.
 
 #include <gtest/gtest.h>
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/file.h>
+#include <ssphh/scene/builtin.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/scene/sun_sky.h>
 #include <ssphh/scene_io/gltf.h>
@@ -86,6 +87,38 @@ TEST(LightModesOfFiles, OfASkyThatIsReplacedAreDropped) {
   LoadOptions options;
   options.sun_sky.emplace().width = 8;
   EXPECT_TRUE(load_scene(file.string(), options).light_modes.empty());
+}
+
+TEST(DarkGroupsOfFiles, SurviveGltfWithWhatTheyEmit) {
+  Scene scene = sun_and_sky();
+  scene.dark_groups = {"sky"};
+  const std::vector<std::byte> glb = export_glb(scene);
+  const Scene read = load_gltf(glb, "memory.glb");
+  EXPECT_EQ(read.dark_groups, scene.dark_groups);
+  EXPECT_EQ(read.environment->color, scene.environment->color);
+  scene.dark_groups = {"moon"};
+  EXPECT_THROW(load_gltf(export_glb(scene), "memory.glb"), Error);
+}
+
+TEST(DarkGroupsOfFiles, EmitNothingUnlessTheyAreToBeKept) {
+  const test::TempDir dir;
+  const auto file = dir.path() / "a.ssphh.json";
+  write_file(file, R"({"scene": "builtin:gallery1", "light_factors": {"cove": [0, 0, 0]}})");
+  const Scene seen = load_scene(file.string());
+  const Scene kept = load_scene(file.string(), {.keep_dark_light = true});
+  EXPECT_EQ(seen.dark_groups, std::vector<std::string>{"cove"});
+  EXPECT_EQ(kept.dark_groups, seen.dark_groups);
+  EXPECT_EQ(scene::light_groups(seen), scene::light_groups(kept));
+  EXPECT_GT(seen.materials.size(), kept.materials.size()) << "those that were put out are copies";
+  // What was read as dark and written anew is read again
+  const Scene copy = load_gltf(export_glb(seen), "memory.glb");
+  EXPECT_EQ(scene::scene_hash(copy), scene::scene_hash(seen));
+  EXPECT_EQ(scene::light_groups(copy), scene::light_groups(seen));
+  // An overlay above turns it up
+  write_file(dir / "b.ssphh.json", R"({"scene": "builtin:gallery1", "overlays": ["a.ssphh.json"],
+                                       "light_factors": {"cove": [1, 1, 1]}})");
+  const Scene up = load_scene((dir / "b.ssphh.json").string());
+  EXPECT_EQ(scene::scene_hash(up), scene::scene_hash(scene::make_builtin("gallery1")));
 }
 
 }  // namespace

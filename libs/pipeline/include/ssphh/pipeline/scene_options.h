@@ -18,6 +18,7 @@ struct SceneOptions {
   float environment_intensity = 1;
   float environment_rotation = 0;  ///< degrees
   bool lambert = false;
+  bool keep_dark_light = false;  ///< as scene_io::LoadOptions
   SkyOptions sky;
   float time = 0;                        ///< seconds
   std::vector<std::string> light_modes;  ///< "GROUP=MODE"; the group's name may hold a "=", too

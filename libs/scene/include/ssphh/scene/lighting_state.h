@@ -64,7 +64,8 @@ struct LightingState {
   friend bool operator==(const LightingState&, const LightingState&) = default;
 };
 
-/// The scene's own lights where its animations put them at `time`, every group at its full strength.
+/// The scene's own lights where its animations put them at `time`, every group at its full strength, but dark
+/// ones at 0.
 LightingState lighting_at(const Scene& scene, float time = 0);
 
 /// How many of each a state must speak of.

@@ -45,8 +45,14 @@ std::uint64_t triangle_count(const Scene& scene);
 /// Material index that an instance shades with; −1: the default Material{}.
 int instance_material(const Scene& scene, const Instance& instance);
 
-/// Names of all light groups, in order of first use (lights, emissive instances, environment). At most 256;
-/// further groups are merged into a last one named "other".
+/// Whether a light group is switched off (Scene::dark_groups).
+bool is_dark(const Scene& scene, const std::string& group);
+
+/// Whether an instance belongs to a light group: its material is emissive, or its group is dark.
+bool is_emitter(const Scene& scene, const Instance& instance);
+
+/// Names of all light groups, in order of first use (lights, emitters among the instances, environment). At
+/// most 256; further groups are merged into a last one named "other".
 std::vector<std::string> light_groups(const Scene& scene);
 
 /// Index into `groups` of one emitter's group.

@@ -226,6 +226,9 @@ struct Scene {
   std::vector<Animation> animations;
   std::optional<Environment> environment;
   std::vector<GroupMode> light_modes;  ///< of light groups that ask for one, each once
+  /// Light groups that are switched off, each once: their factor is 0, but what they would emit is kept for
+  /// those who turn it up again. Renderers are given scenes without_dark_light() (with_lighting.h).
+  std::vector<std::string> dark_groups;
   /// What the file holds and this project does not use, one line each ("extension KHR_materials_sheen (2
   /// uses)").
   std::vector<std::string> ignored;

@@ -13,19 +13,22 @@ namespace ssphh::scene_io {
 struct LoadOptions {
   /// Side file that adds cameras, lights, SPHLs and more. Empty: SCENE.ssphh.json beside SCENE.glb (.gltf,
   /// .obj), if there is one.
-  std::string overlay;
+  std::string overlay{};
   /// Unit of length of the scene file (unit.h), in place of what overlays say. Empty: theirs, else metres.
-  std::string unit;
+  std::string unit{};
   /// Seconds at which skins and morph targets give meshes their shape (gltf.h).
   float time = 0;
   /// Equirectangular .hdr or .exr (or any image); replaces the scene's own environment. Empty: none.
-  std::string environment;
+  std::string environment{};
   float environment_intensity = 1;  ///< factor on the image
   /// Radians about +y, counter-clockwise seen from above; of the scene's own environment, beyond its
   /// rotation.
   float environment_rotation = 0;
+  /// Dark light groups keep what they emit, for those who turn them up again; else the scene is
+  /// scene::without_dark_light(), as renderers take it.
+  bool keep_dark_light = false;
   /// Clear sky and sun; replaces any environment.
-  std::optional<scene::SunSkyParams> sun_sky;
+  std::optional<scene::SunSkyParams> sun_sky{};
 };
 
 /// SCENE.ssphh.json of SCENE.glb, whether or not there is one.

@@ -9,4 +9,7 @@ namespace ssphh::scene_io {
 /// when the scene has its lights; fails for a group that it lacks and for a mode that there is not.
 void read_light_modes(scene::Scene& scene, const json::Cursor& modes);
 
+/// Dark groups (Scene::dark_groups) of a glTF file: a list of names. Fails for a group that the scene lacks.
+void read_dark_groups(scene::Scene& scene, const json::Cursor& groups);
+
 }  // namespace ssphh::scene_io
