@@ -65,8 +65,8 @@ double App::turn(const InjectedInput& input) {
   const bool busy = job.running() || reference.status().running || marks.status().running;
   // How far it is
   if (job.running() && now - last_frame_ > 0.2) redraw();
-  const bool moving = settings.play || path_plays || frames || applied_.light_stale ||
-                      screen_.waiting_maps > 0 || screen_.drawing;
+  const bool moving = settings.play || path_plays || frames || applied_.light_stale || drawing() ||
+                      std::ranges::any_of(others, &Pane::drawing);
   if (redraw_ == 0 && !moving) return busy ? 0.1 : 0.5;
   redraw_ = std::max(redraw_ - 1, 0);
 
@@ -81,9 +81,7 @@ double App::turn(const InjectedInput& input) {
   // Bring everything up to date with it.
   if (scene_open()) {
     draw_scene();
-    update_visible();
-    draw_picture(*this);
-    draw_overlay(*this, screen_.visible);
+    draw_views();
     update_title();
   }
   const auto ui = window.seconds();
@@ -111,7 +109,7 @@ void App::take_work() {
 
 void App::take_truth() {
   if (reference.poll()) {
-    screen_.truth_dirty = true, redraw();
+    screen.truth_dirty = true, redraw();
     if (options.show_truth) send_truth();
   }
   const std::string error = reference.take_error();
@@ -190,13 +188,13 @@ void App::apply_edits() {
   const scene::LightingState lighting = document.lighting();
   if (renderer_->lighting() != lighting) {
     renderer_->set(lighting);
-    screen_.scene_dirty = true;
+    screen.scene_dirty = true;
   }
   for (std::size_t i = 0; i < edits.materials.size(); ++i) {
     if (same_surface(edits.materials[i], applied_.materials[i])) continue;
     renderer_->set_material(static_cast<int>(i), edits.materials[i]);
     applied_.materials[i] = edits.materials[i];
-    screen_.scene_dirty = true;
+    screen.scene_dirty = true;
     if (light.live()) applied_.light_is_stale(window.seconds());
   }
   if (!same_places(edits.sphls, applied_.sphls)) {
@@ -214,35 +212,35 @@ void App::apply_edits() {
 void App::apply_lamps() {
   renderer_->set_lamps(with_materials(*document.scene, document.edits()));
   applied_.lamps_of = document.scene;
-  screen_.drawing.reset();
-  screen_.outline.reset();
-  screen_.scene_dirty = true;
+  screen.drawing.reset();
+  screen.outline.reset();
+  screen.scene_dirty = true;
 }
 
 void App::update_light() {
   const ProbeLight::Update update = light.update(document, settings, *renderer_);
   if (!update.relit && !update.replaced) return;
-  screen_.scene_dirty = screen_.balls_dirty = true;
-  if (update.replaced) screen_.visible_from.reset();
+  screen.scene_dirty = screen.balls_dirty = true;
+  if (update.replaced) screen.visible_from.reset();
   times.add("relight", update.relight_ms);
   if (update.hier_ms > 0.01) times.add("hier", update.hier_ms);
   times.add("probe upload", update.upload_ms);
 }
 
 bool App::settled() const {
-  return current() && (!scene_open() || !smooths() || picture.averaged() >= smooth_pictures);
+  const auto smooth = [](const Pane& pane) { return pane.picture.averaged() >= smooth_pictures; };
+  return current() && (!scene_open() || !smooths() || (smooth(*this) && std::ranges::all_of(others, smooth)));
 }
 
 bool App::current() const {
   if (!scene_open()) return job.idle();
-  if (!job.idle() || !elsewhere.idle() || screen_.to_send || screen_.linear_file || applied_.light_stale ||
-      screen_.scene_dirty || screen_.waiting_maps > 0 || !screen_.drawn || screen_.awaits_picture())
+  if (!job.idle() || !elsewhere.idle() || screen.to_send || screen.linear_file || applied_.light_stale)
     return false;
-  if (!(screen_.drawn->view == view) || !same_picture(screen_.drawn->settings, settings) || screen_.coarse)
-    return false;
+  const auto current = [this](const Pane& pane) { return pane.shows(settings); };
+  if (!current(*this) || !std::ranges::all_of(others, current)) return false;
+  if (static_cast<int>(others.size()) + 1 != settings.views) return false;
   if (draws_marks() && !marked()) return false;
-  return !needs_truth(settings) ||
-         (reference.image().passes >= settings.truth_passes && !screen_.truth_dirty);
+  return !needs_truth(settings) || (reference.image().passes >= settings.truth_passes && !screen.truth_dirty);
 }
 
 }  // namespace ssphh::viewer

@@ -27,18 +27,15 @@
 #include "model/question.h"
 #include "model/reading.h"
 #include "model/reference.h"
-#include "model/view_history.h"
-#include "model/walk.h"
-#include "outline_gl.h"
-#include "picture.h"
+#include "pane.h"
 #include "probe_light.h"
-#include "screen.h"
 #include "viewer.h"
 #include "window.h"
 
 namespace ssphh::viewer {
 
-class App {
+/// What all views share, and as its own pane the one at work: that which keys, mouse and panels act on.
+class App : public Pane {
  public:
   App(Window& window, const ViewerOptions& options, LoadScene load, ShowElsewhere show = {});
   /// Work that is not saved, and that the user did not discard, is kept for the next session.
@@ -121,8 +118,7 @@ class App {
   void save_stats(const std::string& file);
   /// PNG: the picture now, or the window after the next turn. EXR: linear light, once edges are smooth.
   void screenshot(const std::string& file, bool panels);
-  /// The picture as linear radiance, and the truth where one is traced, in the program that shows pictures of
-  /// this session elsewhere. Throws Error where there is none.
+  /// Sends the picture's linear radiance, and that of a truth, to `show`. Throws Error where there is none.
   void show_elsewhere();
   void go_to_camera(const std::string& name);
   /// The view of now as a camera of the scene; an empty name becomes "view 1" or the next number.
@@ -144,6 +140,10 @@ class App {
   /// walker's speed. Without a way it falls and climbs, too.
   void toggle_walk();
   void walk(const vec2& way, float seconds);
+  /// As many views as the settings have, each in its place of the area.
+  void arrange_views();
+  /// The view at a point of the window becomes the one at work.
+  void take_view_at(float x, float y);
   /// Frames what is selected, or everything, without going through a wall.
   void frame_selection();
   /// Selects, and tells what.
@@ -246,7 +246,6 @@ class App {
   const ViewerOptions& options;
   Document document;
   Settings settings;
-  View view;
   Selection selection;
   ProbeLight light;
   Reference reference;
@@ -257,7 +256,6 @@ class App {
   Preferences preferences;
   std::optional<FileDialog> dialog;
   std::filesystem::path replaces;  ///< file that save_button() writes over if pressed again
-  Picture picture;
   FrameTimes times;
   realtime::FrameStats last_stats;
   std::optional<StopHistogram> histogram, truth_histogram;  ///< of the pictures that are shown
@@ -273,10 +271,10 @@ class App {
   std::optional<Inspection> inspection;  ///< of the point that was inspected last
   bool failures_end = false;       ///< work in the background that fails ends the session with its message
   bool follows_exposure = true;    ///< with every frame; else only where follow_exposure() is called
-  int camera = -1;                 ///< chosen in the list; −1: none
   std::string open_tab = "Light";  ///< of the sidebar
   float side_width = 0;            ///< of the sidebar, in heights of the text; 0: as suits the window
-  Rect2 viewport;
+  std::vector<Pane> others;        ///< views beside the one at work
+  Rect2 area;                      ///< of the window, where all views are
   Drag drag;
   Question question;
   std::string message;
@@ -285,8 +283,6 @@ class App {
   bake::BakeParams bake_params;
   ViewerReport report;
   float fly_speed = 2;  ///< m/s
-  bool walking = false;
-  Walker walker;
 
  private:
   struct Loaded;
@@ -329,6 +325,12 @@ class App {
   void resize_picture();
   bool picture_stale() const;
   void draw_scene();
+  /// The views' pictures in turns: that of the view at work first, then the others', then smooth edges.
+  void draw_pictures();
+  /// Begins or continues the pane's picture, or one for its smooth edges; whether there was something to do.
+  bool work_on_picture(bool smooth);
+  void begin_drawing(const Drawing& drawing, const realtime::FrameSettings& how);
+  void draw_views();
   void begin_picture();
   void continue_picture();
   void finish_picture(const Drawing& done);
@@ -359,18 +361,17 @@ class App {
   }
   bool reads() const { return settings.histogram || settings.waveform || settings.false_color; }
   bool wants_linear() const {
-    return needs_truth(settings) || inspecting || reads() || draws_marks() || screen_.to_send;
+    return !beside && (needs_truth(settings) || inspecting || reads() || draws_marks() || screen.to_send);
   }
 
   LoadScene load_;
   std::optional<gl::Context> gl_;  ///< adopted with the first scene
   std::unique_ptr<realtime::Renderer> renderer_;
   std::unique_ptr<BallsGl> balls_;
-  std::unique_ptr<OutlineGl> outline_;
   trace::SharedGeometry geometry_;  ///< of document.opened, and of every scene with other lamps
   std::unique_ptr<trace::TransportScene> picking_;
-  Screen screen_;
   Applied applied_;
+  int rendered_ = 0;  ///< place of the view whose frame the renderer has
   struct Baked {
     bool viz_only = false;
     Edits edits;
@@ -380,7 +381,6 @@ class App {
   double gen_rate_ = 0;         ///< paths per second of the last GEN with VIZ; 0: there was none
   double live_seconds_ = 0;     ///< that the live light of now took
   ExposureFollower exposure_;
-  ViewHistory views_;
   std::optional<InspectedAt> inspected_;  ///< what `inspection` holds for
   scene::Bounds clicked_;                 ///< part of the selected object that was clicked; empty: it was not
 

@@ -7,8 +7,8 @@
 namespace ssphh::viewer {
 
 void App::inspect(const vec2& point) {
-  const InspectedAt now{point,         view, document.time, document.history.serial(), screen_.pictures,
-                        picking_.get()};
+  const InspectedAt now{point,           view,          document.time, document.history.serial(),
+                        screen.pictures, picking_.get()};
   if (!inspection || !inspected_ || !(*inspected_ == now)) {
     inspected_ = now;
     inspection = Inspection{};
@@ -35,7 +35,7 @@ void App::inspect(const vec2& point) {
                y = static_cast<int>((1 - point.y) * static_cast<float>(image.height));
     return image.rgb(std::clamp(x, 0, image.width - 1), std::clamp(y, 0, image.height - 1));
   };
-  inspection->radiance = screen_.awaits_picture() ? inspection->radiance : pixel(picture.linear());
+  inspection->radiance = screen.awaits_picture() ? inspection->radiance : pixel(picture.linear());
   const ReferenceImage& truth = reference.image();
   inspection->truth = needs_truth(settings) && truth.color ? pixel(*truth.color) : std::nullopt;
 }
@@ -48,11 +48,11 @@ void App::toggle_inspector() {
 }
 
 void App::note_view() {
-  if (drag.what == Drag::What::none && !path_plays) views_.note(view, window.seconds());
+  if (drag.what == Drag::What::none && !path_plays) views.note(view, window.seconds());
 }
 
 void App::view_back() {
-  const std::optional<View> before = views_.back(view);
+  const std::optional<View> before = views.back(view);
   if (!before) return say("there is no earlier view");
   view = *before;
   path_plays = false;
@@ -60,7 +60,7 @@ void App::view_back() {
 }
 
 void App::view_forward() {
-  const std::optional<View> next = views_.forward(view);
+  const std::optional<View> next = views.forward(view);
   if (!next) return say("there is no later view");
   view = *next;
   path_plays = false;
@@ -68,14 +68,14 @@ void App::view_forward() {
 }
 
 void App::view_along(const vec3& direction) {
-  views_.keep(view);
+  views.keep(view);
   view = seen_along(view, direction);
   path_plays = false;
   redraw();
 }
 
 void App::toggle_orthographic() {
-  views_.keep(view);
+  views.keep(view);
   view = with_other_projection(view);
   redraw();
 }

@@ -108,11 +108,12 @@ void App::take_document(Loaded loaded) {
   selection = {};
   camera = -1;
   view = view_from("");
-  views_ = ViewHistory(view);
+  views = ViewHistory(view);
+  others.clear(), place = 0;
   pinned.reset(), inspection.reset();
   applied_.materials = document.edits().materials;
   applied_.sphls = document.edits().sphls;
-  screen_.forget();
+  screen.forget();
   exposure_.forget();
   applied_.light_stale = applied_.bakes_again = false;
   fly_speed = document.bounds.empty()

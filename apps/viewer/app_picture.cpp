@@ -17,43 +17,35 @@ namespace ssphh::viewer {
 /// A software renderer takes a second for a large picture: while something moves it gets a small one.
 void App::resize_picture() {
   const bool moving = drag.changes_picture() || settings.play || path_plays;
-  if (!moving) screen_.coarse = false;
-  if (moving && last_stats.cpu_ms > 80) screen_.coarse = true;
-  const float scale = settings.scale * (screen_.coarse ? 0.4f : 1.0f);
+  if (!moving) screen.coarse = false;
+  if (moving && last_stats.cpu_ms > 80) screen.coarse = true;
+  const float scale = settings.scale * (screen.coarse ? 0.4f : 1.0f);
   picture.resize(std::max(1, static_cast<int>(std::lround(viewport.width * scale))),
                  std::max(1, static_cast<int>(std::lround(viewport.height * scale))));
 }
 
 /// Whether the picture on the screen, or the one that is being drawn, is not that of now.
 bool App::picture_stale() const {
-  const bool changed = !screen_.drawn || !(screen_.drawn->view == view) ||
-                       !same_picture(screen_.drawn->settings, settings) ||
-                       (settings.balls && !(screen_.drawn->selection == selection)) ||
-                       needs_truth(screen_.drawn->settings) != needs_truth(settings) ||
-                       screen_.drawn->width != picture.width() || screen_.drawn->height != picture.height();
+  const bool changed = !screen.drawn || !(screen.drawn->view == view) ||
+                       !same_picture(screen.drawn->settings, settings) ||
+                       (settings.balls && !(screen.drawn->selection == selection)) ||
+                       needs_truth(screen.drawn->settings) != needs_truth(settings) ||
+                       screen.drawn->width != picture.width() || screen.drawn->height != picture.height();
   const bool linear_missing = wants_linear() && picture.linear().empty();
-  const bool to_file = screen_.linear_file && !screen_.linear_file->begun;
-  return changed || screen_.scene_dirty || screen_.waiting_maps > 0 || linear_missing || to_file;
+  const bool to_file = screen.linear_file && !screen.linear_file->begun;
+  return changed || screen.scene_dirty || screen.waiting_maps > 0 || linear_missing || to_file;
 }
 
 /// A picture that is begun is drawn to its end, however often the view changes meanwhile, so that something
 /// moves; one of those for smooth edges is dropped.
 void App::draw_scene() {
-  if (!screen_.awaits_picture()) {
+  if (!screen.awaits_picture()) {
     resize_picture();
     apply_edits();
     update_light();
-    if (picture_stale()) {
-      begin_picture();
-    } else if (!screen_.drawing && smooths() && picture.averaged() < smooth_pictures) {
-      realtime::FrameSettings moved = frame_settings(settings);
-      moved.shift = place_in_pixel(picture.averaged());
-      picture.begin(*renderer_, pose_of(view), moved);
-      screen_.drawing = Drawing{true, 0};
-    }
   }
-  if (screen_.drawing) continue_picture();
-  if (screen_.awaits_picture()) return;
+  draw_pictures();
+  if (screen.awaits_picture()) return;
   send_picture();
   draw_outline();
   update_truth();
@@ -67,11 +59,11 @@ trace::SharedGeometry App::geometry_of_methods(const scene::Scene& edited) const
 }
 
 MarkedFor App::marks_key() const {
-  return {screen_.pictures, settings.draw, shown_tone(settings)};
+  return {screen.pictures, settings.draw, shown_tone(settings)};
 }
 
 bool App::marked() const {
-  return draws_marks() && marks.done() && screen_.marked == marks_key();
+  return draws_marks() && marks.done() && screen.marked == marks_key();
 }
 
 bool App::shows_instead() const {
@@ -80,11 +72,11 @@ bool App::shows_instead() const {
 
 void App::update_marks() {
   if (!draws_marks()) {
-    if (std::exchange(screen_.marked, std::nullopt)) marks.clear();
+    if (std::exchange(screen.marked, std::nullopt)) marks.clear();
     return;
   }
-  if (picture.linear().empty() || !geometry_ || applied_.light_stale || screen_.marked == marks_key()) return;
-  screen_.marked = marks_key();
+  if (picture.linear().empty() || !geometry_ || applied_.light_stale || screen.marked == marks_key()) return;
+  screen.marked = marks_key();
   MarksParams params;
   params.scene = std::make_shared<const scene::Scene>(document.edited());
   params.geometry = geometry_of_methods(*params.scene);
@@ -100,7 +92,7 @@ void App::update_marks() {
     else
       params.what.push_back(what);
   }
-  params.camera = pose_of(screen_.drawn->view);
+  params.camera = pose_of(screen.drawn->view);
   params.picture = picture.linear();
   params.tone = shown_tone(settings);
   marks.draw(std::move(params));
@@ -112,15 +104,15 @@ void App::update_readings() {
   if (linear.empty()) return;
   const bool traced = needs_truth(settings) && reference.image().color;
   const float exposure = shown_tone(settings).exposure;
-  const ReadFor now{screen_.pictures,
+  const ReadFor now{screen.pictures,
                     traced ? reference.image().passes : 0,
                     exposure,
                     settings.waveform,
                     settings.false_color,
                     settings.show,
                     settings.wipe};
-  if (screen_.readings == now) return;
-  screen_.readings = now;
+  if (screen.readings == now) return;
+  screen.readings = now;
   histogram = stop_histogram(linear, exposure);
   truth_histogram.reset();
   if (traced) truth_histogram = stop_histogram(*reference.image().color, exposure);
@@ -136,63 +128,62 @@ void App::update_readings() {
 }
 
 void App::begin_picture() {
-  const bool light_path_changed = screen_.scene_dirty || !screen_.drawn || !(screen_.drawn->view == view) ||
-                                  screen_.drawn->width != picture.width() ||
-                                  screen_.drawn->height != picture.height();
-  if (screen_.scene_dirty) marks.forget();
-  if (light_path_changed) {
+  const bool light_path_changed = screen.scene_dirty || !screen.drawn || !(screen.drawn->view == view) ||
+                                  screen.drawn->width != picture.width() ||
+                                  screen.drawn->height != picture.height();
+  if (screen.scene_dirty && !beside) marks.forget();
+  if (light_path_changed && !beside) {
     picture.forget_truth();
     reference.clear();
     last_change_ = window.seconds();
   }
   if (!wants_linear()) picture.forget_linear();
-  if (screen_.linear_file) screen_.linear_file->begun = true, screen_.linear_file->mean = {};
-  picture.begin(*renderer_, pose_of(view), frame_settings(settings));
-  screen_.drawing = Drawing{false, 0};
-  screen_.drawn = {view, settings, selection, picture.width(), picture.height()};
-  screen_.scene_dirty = false;
+  if (screen.linear_file) screen.linear_file->begun = true, screen.linear_file->mean = {};
+  begin_drawing({false, 0}, frame_settings(settings));
+  screen.drawn = {view, settings, selection, picture.width(), picture.height()};
+  screen.scene_dirty = false;
 }
 
 /// As many pieces as leave time for the interface, at least one; where nobody sits there, all.
 void App::continue_picture() {
   const double start = window.seconds(), patience = by_hand() ? 0.02 : 1e30;
-  const bool linear = !screen_.drawing->smooth && (wants_linear() || needs_truth(screen_.drawn->settings));
+  const bool linear = !screen.drawing->smooth && (wants_linear() || needs_truth(screen.drawn->settings));
   bool more = true;
   while ((more = picture.step(*renderer_, linear)) && window.seconds() - start < patience) {
   }
-  screen_.drawing->seconds += window.seconds() - start;
-  if (!more) finish_picture(*std::exchange(screen_.drawing, std::nullopt));
+  screen.drawing->seconds += window.seconds() - start;
+  if (!more) finish_picture(*std::exchange(screen.drawing, std::nullopt));
   redraw();
 }
 
 void App::finish_picture(const Drawing& done) {
   draw_balls();
-  ++screen_.pictures;
-  if (screen_.linear_file && screen_.linear_file->begun)
-    screen_.linear_file->mean.add(renderer_->read_back());
+  ++screen.pictures;
+  if (screen.linear_file && screen.linear_file->begun) screen.linear_file->mean.add(renderer_->read_back());
   if (done.smooth) return picture.average();
+  screen.waiting_maps = renderer_->stats().shadow_maps_waiting;
+  if (screen.drawn->settings.antialias && !needs_truth(screen.drawn->settings)) picture.average();
+  if (beside) return;
   last_stats = renderer_->stats();
-  screen_.waiting_maps = last_stats.shadow_maps_waiting;
   times.add("frame", 1e3 * done.seconds);
   for (const realtime::PassTime& pass : last_stats.passes)
     times.add(pass.name, std::max(pass.cpu_ms, pass.gpu_ms));
-  if (screen_.drawn->settings.antialias && !needs_truth(screen_.drawn->settings)) picture.average();
-  screen_.truth_dirty = true;
+  screen.truth_dirty = true;
   // Not of those that follow for the mean: a moved one may stand on the other side of a quarter.
-  screen_.suits = suitable_exposure();
+  screen.suits = suitable_exposure();
   if (follows_exposure) follow_exposure();
 }
 
 /// Into the picture that is whole now, as it was when that was begun.
 void App::draw_balls() {
-  const Settings& shown = screen_.drawn->settings;
+  const Settings& shown = screen.drawn->settings;
   if (!shown.balls || light.empty()) return;
-  if (screen_.balls_dirty || screen_.balls != shown.ball) balls_->update(light.set(), shown.ball);
-  screen_.balls_dirty = false;
-  screen_.balls = shown.ball;
-  const Selection& chosen = screen_.drawn->selection;
+  if (screen.balls_dirty || screen.balls != shown.ball) balls_->update(light.set(), shown.ball);
+  screen.balls_dirty = false;
+  screen.balls = shown.ball;
+  const Selection& chosen = screen.drawn->selection;
   BallsGl::Look look;
-  look.view = screen_.drawn->view;
+  look.view = screen.drawn->view;
   look.radius = shown.ball_size > 0 ? shown.ball_size : default_ball_size(light.set());
   look.lobes = shown.lobes;
   look.tone = shown_tone(shown);
@@ -215,23 +206,23 @@ bool App::show_exposure(float ev) {
 }
 
 bool App::follow_exposure() {
-  return screen_.suits && show_exposure(exposure_.follow(*screen_.suits));
+  return screen.suits && show_exposure(exposure_.follow(*screen.suits));
 }
 
 bool App::take_exposure() {
-  return screen_.suits && show_exposure(exposure_.take(*screen_.suits));
+  return screen.suits && show_exposure(exposure_.take(*screen.suits));
 }
 
 void App::show_elsewhere() {
   if (!elsewhere) throw Error("picture", "there is no program that shows it elsewhere");
-  screen_.to_send = true;
+  screen.to_send = true;
   send_truth();
   say(fmt::format("showing {} in tev", picture_name()));
 }
 
 void App::send_picture() {
-  if (!screen_.to_send || picture.linear().empty()) return;
-  screen_.to_send = false;
+  if (!screen.to_send || picture.linear().empty()) return;
+  screen.to_send = false;
   elsewhere.send(picture_name(), std::make_shared<const image::Image>(picture.linear()));
 }
 
@@ -242,21 +233,21 @@ void App::send_truth() {
 
 /// Which probes the eye sees: their names are shown, the others' are not.
 void App::update_visible() {
-  if (light.empty()) return screen_.visible.clear();
+  if (light.empty()) return screen.visible.clear();
   const std::vector<probes::Probe>& probes = light.set().probes;
   const bool wanted = settings.names || settings.graph || place_mode;
   if (!wanted) {
-    screen_.visible_from.reset();
-    return screen_.visible.assign(probes.size(), 1);
+    screen.visible_from.reset();
+    return screen.visible.assign(probes.size(), 1);
   }
-  if (screen_.visible_from == std::pair(view, document.time)) return;
-  screen_.visible_from = {view, document.time};
+  if (screen.visible_from == std::pair(view, document.time)) return;
+  screen.visible_from = {view, document.time};
   std::vector<rays::RayQuery> to_eye;
   for (const probes::Probe& probe : probes) to_eye.push_back({probe.position, view.eye - probe.position, 1});
   std::vector<std::uint8_t> blocked(probes.size());
   rays::PosedWorld(*picking_, document.time).occluded(to_eye, blocked);
-  screen_.visible.clear();
-  for (const std::uint8_t b : blocked) screen_.visible.push_back(b ? 0 : 1);
+  screen.visible.clear();
+  for (const std::uint8_t b : blocked) screen.visible.push_back(b ? 0 : 1);
 }
 
 /// Ground truth starts once the picture has been still for a moment, and follows every change.
@@ -266,10 +257,10 @@ void App::update_truth() {
     return;
   }
   const auto asked = std::make_pair(settings.against, settings.truth_depth);
-  if (asked != screen_.truth_asked) {
+  if (asked != screen.truth_asked) {
     picture.forget_truth();
     reference.clear();
-    screen_.truth_asked = asked;
+    screen.truth_asked = asked;
   }
   const bool started = reference.status().running || reference.image().passes > 0;
   if (!started) {
@@ -287,10 +278,10 @@ void App::update_truth() {
     reference.start(params);
     return;
   }
-  if (screen_.truth_dirty || screen_.truth_settings != settings)
+  if (screen.truth_dirty || screen.truth_settings != settings)
     picture.update_truth(reference.image(), settings);
-  screen_.truth_dirty = false;
-  screen_.truth_settings = settings;
+  screen.truth_dirty = false;
+  screen.truth_settings = settings;
 }
 
 }  // namespace ssphh::viewer

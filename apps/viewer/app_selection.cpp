@@ -76,22 +76,24 @@ void App::frame_selection() {
 }
 
 const gl::Texture* App::outline() const {
-  return screen_.outline && !outline_->empty() ? &outline_->picture() : nullptr;
+  return screen.outline && !outline_gl->empty() ? &outline_gl->picture() : nullptr;
 }
 
 void App::draw_outline() {
-  if (!selection.is(Kind::object) && !selection.is(Kind::material)) return screen_.outline.reset();
-  if (!screen_.drawn) return;
-  const bool same_bodies = screen_.outline && screen_.outline->first.selection == selection;
-  const DrawnWith now{screen_.drawn->view, {}, selection, picture.width(), picture.height()};
-  if (same_bodies && screen_.outline->first.view == now.view && screen_.outline->first.width == now.width &&
-      screen_.outline->first.height == now.height && screen_.outline->second == document.time)
+  if (!selection.is(Kind::object) && !selection.is(Kind::material)) return screen.outline.reset();
+  if (!screen.drawn) return;
+  const bool same_bodies = screen.outline && screen.outline->first.selection == selection;
+  const DrawnWith now{screen.drawn->view, {}, selection, picture.width(), picture.height()};
+  if (same_bodies && screen.outline->first.view == now.view && screen.outline->first.width == now.width &&
+      screen.outline->first.height == now.height && screen.outline->second == document.time)
     return;
-  if (!outline_) outline_ = std::make_unique<OutlineGl>();
-  if (!same_bodies) outline_->set(*document.scene, instances_of(*document.scene, selection));
-  outline_->draw(scene::world_matrices(*document.scene, document.time), renderer_->depth_texture(),
-                 renderer_->view_projection(), now.width, now.height);
-  screen_.outline = {now, document.time};
+  // Surfaces hide bodies by the depth of the pane's own frame.
+  if (rendered_ != place) return screen.drawn.reset();
+  if (!outline_gl) outline_gl = std::make_unique<OutlineGl>();
+  if (!same_bodies) outline_gl->set(*document.scene, instances_of(*document.scene, selection));
+  outline_gl->draw(scene::world_matrices(*document.scene, document.time), renderer_->depth_texture(),
+                   renderer_->view_projection(), now.width, now.height);
+  screen.outline = {now, document.time};
   redraw();
 }
 

@@ -32,6 +32,7 @@ constexpr Shortcut all_shortcuts[] = {
     {"Home", "the scene's first camera"},
     {"numpad 1 3 7, 5", "from the front, right, above (Ctrl: opposite), orthographic"},
     {"Alt+Left, Alt+Right", "the view before, after"},
+    {"M", "one view, two or four side by side; a press in one makes it the one at work"},
     {"B", "add a bookmark"},
     {"I", "values under the mouse; a click pins the point"},
     {"Space", "play or stop the animation"},
@@ -300,7 +301,6 @@ void continue_drag(App& app) {
 
 void handle_mouse(App& app) {
   const ImGuiIO& io = ImGui::GetIO();
-  const bool inside = !io.WantCaptureMouse && app.viewport.contains(io.MousePos.x, io.MousePos.y);
   if (app.drag.what != Drag::What::none && !ImGui::IsAnyMouseDown()) {
     // A hand is not quite still while it clicks.
     const bool click = app.drag.what == Drag::What::view && app.drag.way < 4;
@@ -313,6 +313,13 @@ void handle_mouse(App& app) {
     app.document.history.seal();
     app.redraw();
   }
+  // A press or the wheel in another view goes on there.
+  const bool free = !io.WantCaptureMouse && app.drag.what == Drag::What::none;
+  if (free &&
+      (ImGui::IsMouseClicked(ImGuiMouseButton_Left) || ImGui::IsMouseClicked(ImGuiMouseButton_Right) ||
+       ImGui::IsMouseClicked(ImGuiMouseButton_Middle) || io.MouseWheel != 0))
+    app.take_view_at(io.MousePos.x, io.MousePos.y);
+  const bool inside = !io.WantCaptureMouse && app.viewport.contains(io.MousePos.x, io.MousePos.y);
   if (inside && app.drag.what == Drag::What::none) {
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) begin_left(app);
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Right)) app.drag.what = Drag::What::look;

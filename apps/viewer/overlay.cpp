@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "app.h"
+#include "model/view_layout.h"
 #include "on_screen.h"
 #include "rings.h"
 
@@ -164,6 +165,23 @@ void draw_wipe(const App& app, ImDrawList& list) {
   label("path traced", x + 14);
 }
 
+/// What the view is, where there are several or somebody walks in it, and a frame around the one at work.
+void draw_sign(const App& app, ImDrawList& list) {
+  const bool several = !app.others.empty();
+  const Rect2& r = app.viewport;
+  if (several)
+    list.AddRect({r.x, r.y}, {r.x + r.width, r.y + r.height},
+                 app.beside ? IM_COL32(70, 70, 74, 255) : IM_COL32(255, 190, 80, 255), 0, 0, 2);
+  std::string text = several ? view_name(app.view) : "";
+  if (app.walking) text += text.empty() ? "walking, V ends" : ", walking";
+  if (text.empty()) return;
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const ImVec2 at{r.x + 12, r.y + 11};
+  list.AddRectFilled({at.x - 6, at.y - 3}, {at.x + size.x + 6, at.y + size.y + 3}, IM_COL32(20, 20, 22, 170),
+                     3);
+  list.AddText(at, IM_COL32_WHITE, text.c_str());
+}
+
 }  // namespace
 
 int lamp_under_mouse(const App& app, float x, float y) {
@@ -227,8 +245,9 @@ void draw_overlay(const App& app, const std::vector<unsigned char>& visible) {
   draw_lamp_shape(app, list);
   draw_rings(app, list);
   draw_handles(app, list);
-  draw_drag_value(app, list);
-  if (app.settings.show == Show::wipe) draw_wipe(app, list);
+  if (!app.beside) draw_drag_value(app, list);
+  if (app.settings.show == Show::wipe && !app.beside) draw_wipe(app, list);
+  draw_sign(app, list);
   list.PopClipRect();
 }
 

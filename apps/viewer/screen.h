@@ -82,6 +82,13 @@ struct Screen {
 
   bool scene_dirty = true, balls_dirty = true, truth_dirty = true;
 
+  /// What is drawn gives way to another view: one with something new is begun anew later.
+  void drop_drawing() {
+    if (awaits_picture()) drawn.reset();
+    drawing.reset();
+  }
+  /// What lies over the picture of the view at work alone.
+  void forget_beside() { readings.reset(), marked.reset(), truth_settings.reset(); }
   /// Whether a picture with something new is on its way.
   bool awaits_picture() const { return drawing && !drawing->smooth; }
   /// Another scene takes the place of the one that is shown.

@@ -15,11 +15,12 @@ std::optional<float> place_on_line(const rays::PosedWorld& world, const vec3& ce
   for (float distance = most; distance > 0.05f * most; distance *= step) {
     const vec3 eye = center + distance * direction;
     const vec3 behind = eye + room * distance * direction;
-    if (from && !world.visible(*from, behind)) continue;
+    // Glass, too, is a wall to who goes, not to who looks on.
+    if (from && !world.joined(*from, behind)) continue;
     // What is within the sphere is the thing itself, or as near as it.
     const float free = distance - radius;
-    if (free > 0 && !world.visible(behind, behind - (free + room * distance) * direction)) continue;
-    if (free <= 0 && !world.visible(eye, behind)) continue;
+    const vec3 near = free > 0 ? behind - (free + room * distance) * direction : eye;
+    if (from ? !world.visible(behind, near) : !world.joined(behind, near)) continue;
     return distance;
   }
   return {};
@@ -78,7 +79,7 @@ View orbited_within(const View& view, const vec3& point, float yaw, float pitch,
   const float focus = out.focus;
   for (float share = 1; share > least; share *= step) {
     if (share < 1) out.eye = point + share * away, out.focus = share * focus;
-    if (world.visible(view.eye, out.eye + room * share * away)) return out;
+    if (world.joined(view.eye, out.eye + room * share * away)) return out;
   }
   return view;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Views of a thing that go through no wall.
+/// Views of a thing that go through no wall, nor through glass.
 
 #include <ssphh/rays/posed_world.h>
 

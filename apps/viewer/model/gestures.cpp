@@ -49,6 +49,7 @@ Settings after_key(Settings s, char key, bool animated) {
   if (key == 'T') s.show = next_comparison(s.show);
   if (key == 'J') s.histogram = !s.histogram;
   if (key == 'U') s.waveform = !s.waveform;
+  if (key == 'M') s.views = s.views >= 4 ? 1 : s.views >= 2 ? 4 : 2;
   if (key == 'K') s.false_color = !s.false_color;
   if (key >= '1' && key <= '8') s.debug = static_cast<DebugView>(key - '1');
   if (key == '[') s.exposure -= 0.5f, s.auto_exposure = false;

@@ -26,12 +26,12 @@ View dragged(const View& view, ViewDrag drag, const vec2& pixels, float height);
 View wheeled(const View& view, float notches);
 
 /// The keys that change settings.
-inline constexpr std::string_view setting_keys = " PLGTJKU12345678[]\\";
+inline constexpr std::string_view setting_keys = " PLGTJKUM12345678[]\\";
 
 /// The settings once one of `setting_keys` was pressed: P balls, L lobes (with balls), G graph, T the next
-/// comparison with the truth, J the histogram, U the waveform, K false colours, 1 to 8 debug views,
-/// [ and ] half a stop darker and brighter, \ the exposure that suits the picture or stays; the space bar
-/// plays what is `animated`.
+/// comparison with the truth, J the histogram, U the waveform, K false colours, M one view, two or four, 1 to
+/// 8 debug views, [ and ] half a stop darker and brighter, \ the exposure that suits the picture or stays;
+/// the space bar plays what is `animated`.
 Settings after_key(Settings settings, char key, bool animated);
 
 /// How a thing is held that is dragged.

@@ -26,9 +26,11 @@ std::string count_text(double count) {
   return fmt::format("{:.0f}", count);
 }
 
+/// No line of a narrow panel ends between a number and its unit: the blanks are no-break ones.
 std::string time_text(double seconds) {
   if (seconds < 1) return "under a second";
-  return seconds < 120 ? fmt::format("some {:.0f} s", seconds) : fmt::format("some {:.0f} min", seconds / 60);
+  return seconds < 120 ? fmt::format("some\u00a0{:.0f}\u00a0s", seconds)
+                       : fmt::format("some\u00a0{:.0f}\u00a0min", seconds / 60);
 }
 
 }  // namespace
@@ -92,7 +94,7 @@ std::string cost_text(Quality quality, const LightKnown& known) {
   if (known.probes == 0) text += " a probe";
   if (cost.seconds > 0) text += ", with VIZ " + time_text(cost.seconds);
   text += fmt::format("\nlive: up to {} surfels", count_text(cost.surfels));
-  if (cost.bytes > 0) text += fmt::format(", {:.1f} GB", cost.bytes / 1e9);
+  if (cost.bytes > 0) text += fmt::format(", {:.1f}\u00a0GB", cost.bytes / 1e9);
   if (cost.live_seconds > 0) text += ", " + time_text(cost.live_seconds);
   return text;
 }

@@ -143,6 +143,10 @@ const std::vector<SettingName>& setting_names() {
       toggle("waveform", "Picture",
              "Red, green and blue over the picture's columns, in stops from middle grey",
              &Settings::waveform),
+      number(
+          "views", "Picture",
+          "Views side by side: 2 with one from above, 3 with one from the front, 4 with one from the right",
+          1, most_views, &Settings::views),
       number("scale", "Picture", "Pixels drawn per pixel of the window, along each axis", 0.1f, 2,
              &Settings::scale),
       number("indirect-scale", "Picture",

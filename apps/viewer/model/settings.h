@@ -67,6 +67,8 @@ constexpr auto enum_table(Ball) {
                                         {sum, "sum"}});
 }
 
+constexpr int most_views = 4;  ///< side by side
+
 struct Settings {
   // Picture
   bool auto_exposure = true;  ///< `exposure` follows the picture
@@ -83,6 +85,7 @@ struct Settings {
       "path";  ///< what the truth's place holds: path, or a method of methods::all_methods()
   int truth_depth = rays::usual_max_depth;  ///< scattering events of the ground truth
   int truth_passes = 256;                   ///< samples per pixel
+  int views = 1;                            ///< side by side, to most_views
   float scale = 1;         ///< pixels of the real-time picture per pixel of the window, along each axis
   int indirect_scale = 3;  ///< of the real-time picture where no truth is beside it
 

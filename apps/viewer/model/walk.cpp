@@ -184,6 +184,8 @@ View walked(const View& view, const vec2& way, const Walker& walker, const rays:
   const auto ground = body.ground(out.eye);
   if (!ground) return out;
   const float rise = *ground + walker.eye - out.eye.y, climb = 3 * walker.eye * seconds;
+  // Who stands stands still: where the ground is found hangs on the eye's last digits.
+  if (std::abs(rise) < 1e-4f * walker.eye) return out;
   float by = std::clamp(rise, -2 * climb, climb);
   if (by > 0) {
     const auto ceiling = met(world, out.eye, up, by + 0.06f * walker.eye);

@@ -31,7 +31,7 @@ void draw_help(App& app) {
   }
   const float tall = std::min(lines + 2 * style.WindowPadding.y, 0.96f * height);
   const float scrollbar = tall < lines + 2 * style.WindowPadding.y ? style.ScrollbarSize : 0;
-  const Rect2& r = app.viewport;
+  const Rect2& r = app.area;
   const ImVec2 size{keys + what + gap + around + scrollbar, tall};
   // Over the picture where that has room for it.
   const bool beside = size.x <= r.width && size.y <= r.height;

@@ -18,7 +18,7 @@ ImTextureID texture_id(unsigned texture) {
 }
 
 void draw_welcome(App& app) {
-  const Rect2& r = app.viewport;
+  const Rect2& r = app.area;
   const JobStatus status = app.job.status();
   const std::string loading =
       status.running ? fmt::format("{} … {:.0f} s", status.name, status.seconds) : std::string();
@@ -44,7 +44,7 @@ void draw_welcome(App& app) {
 /// margin.
 float draw_offer(App& app) {
   if (!app.panels || !app.scene_open() || !app.light.empty() || app.job.running()) return 0;
-  const Rect2& r = app.viewport;
+  const Rect2& r = app.area;
   ImGui::SetNextWindowPos({r.x + 0.5f * r.width, r.y + 14}, ImGuiCond_Always, {0.5f, 0});
   ImGui::SetNextWindowBgAlpha(0.85f);
   ImGui::Begin("offer", nullptr, fixed | ImGuiWindowFlags_AlwaysAutoResize);
@@ -72,7 +72,7 @@ float draw_message(App& app) {
   const double age = app.window.seconds() - app.message_since;
   const double stays = app.message_is_error ? 15 : 4;
   if (app.message.empty() || age > stays) return 0;
-  const Rect2& r = app.viewport;
+  const Rect2& r = app.area;
   ImGui::SetNextWindowPos({r.x + 0.5f * r.width, r.y + r.height - 14}, ImGuiCond_Always, {0.5f, 1});
   ImGui::SetNextWindowBgAlpha(0.85f);
   ImGui::Begin("message", nullptr, fixed | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
@@ -92,11 +92,11 @@ void draw_picture(const App& app) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const Rect2& r = app.viewport;
   const ImVec2 from{r.x, r.y}, to{r.x + r.width, r.y + r.height};
-  const bool truth = needs_truth(app.settings) && app.picture.has_truth();
+  const bool truth = !app.beside && needs_truth(app.settings) && app.picture.has_truth();
   const float line =
       app.settings.show == Show::wipe && app.settings.debug != DebugView::leak ? app.settings.wipe : 0;
   // OpenGL's first row is the lowest one, a file's the highest.
-  if (app.shows_instead()) {
+  if (!app.beside && app.shows_instead()) {
     list.AddImage(texture_id(app.picture.instead_texture().id()), from, to);
   } else {
     list.AddImage(texture_id(app.picture.realtime_texture()), from, to, {0, 1}, {1, 0});
@@ -117,12 +117,13 @@ void draw_panels(App& app) {
     bottom = ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().WindowPadding.y;
     left = draw_sidebar(app, top, height - top);
   }
-  app.viewport = {left, top, std::max(width - left, 1.0f), std::max(height - top - bottom, 1.0f)};
+  app.area = {left, top, std::max(width - left, 1.0f), std::max(height - top - bottom, 1.0f)};
+  app.arrange_views();
   if (app.panels) draw_time_bar(app);
   if (!app.scene_open()) draw_welcome(app);
   // The keys are not read through something else.
   const float above = app.help ? 0 : draw_offer(app), below = draw_message(app);
-  const Rect2& r = app.viewport;
+  const Rect2& r = app.area;
   const Rect2 room{r.x, r.y + above, r.width, r.height - above - below};
   if (!app.help) draw_readings(app, room), draw_inspector(app, room);
   draw_help(app);

@@ -116,6 +116,13 @@ void draw_view_menu(App& app) {
   ImGui::MenuItem("Panels", "Tab", &app.panels);
   if (ImGui::MenuItem("Values under the mouse", "I", app.inspecting)) app.toggle_inspector();
   ImGui::Separator();
+  if (ImGui::BeginMenu("Views side by side")) {
+    for (int count = 1; count <= most_views; ++count) {
+      const char* const key = count == 3 ? nullptr : "M";
+      if (ImGui::MenuItem(fmt::format("{}", count).c_str(), key, s.views == count)) s.views = count;
+    }
+    ImGui::EndMenu();
+  }
   if (ImGui::MenuItem("Walk", "V", app.walking)) app.toggle_walk();
   tip("W A S D go on the ground at the eye's height, up to walls and along them; drags look around.");
   if (ImGui::MenuItem("From the front", "Num 1")) app.view_along({0, 0, -1});

@@ -8,7 +8,7 @@ namespace ssphh::viewer {
 
 class App;
 
-/// Menu, sidebar, time bar and messages; sets App::viewport.
+/// Menu, sidebar, time bar and messages; sets App::area and the views' places.
 void draw_panels(App& app);
 /// The picture behind them. Call when its textures are those of this frame.
 void draw_picture(const App& app);

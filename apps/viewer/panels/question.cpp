@@ -104,7 +104,7 @@ void draw_question(App& app) {
   const bool asks =
       recovers || reloads || takes || (app.question.then != Question::Then::nothing && !lost.empty());
   if (asks && !ImGui::IsPopupOpen(popup)) ImGui::OpenPopup(popup);
-  const Rect2& r = app.viewport;
+  const Rect2& r = app.area;
   ImGui::SetNextWindowPos({r.x + 0.5f * r.width, r.y + 0.5f * r.height}, ImGuiCond_Always, {0.5f, 0.5f});
   constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize;

@@ -54,7 +54,7 @@ void draw_summary(const App& app) {
 }  // namespace
 
 void draw_time_bar(App& app) {
-  const Rect2& r = app.viewport;
+  const Rect2& r = app.area;
   ImGui::SetNextWindowPos({r.x, r.y + r.height});
   ImGui::SetNextWindowSize({r.width, static_cast<float>(app.window.height()) - r.y - r.height});
   ImGui::Begin("time", nullptr,

@@ -1,4 +1,4 @@
-// Turning about a point within a room.
+// Turning about a point within a room, and framing through no window.
 
 #include <gtest/gtest.h>
 
@@ -47,6 +47,32 @@ TEST_F(Orbit, IsAsAlwaysWhereNothingStandsInTheWay) {
   View parallel = view_;
   parallel.orthographic = true;
   EXPECT_EQ(orbited_within(parallel, point_, 2, 0, world_), orbited_about(parallel, point_, 2, 0));
+}
+
+TEST(Window, KeepsTheEyeInsideThoughOneSeesThroughIt) {
+  scene::Scene scene;
+  scene::Material glass;
+  glass.transmission = 1;
+  scene.materials = {glass};
+  scene::Mesh pane;
+  pane.positions = {{-9, -9, 3.5f}, {9, -9, 3.5f}, {9, 9, 3.5f}, {-9, 9, 3.5f}};
+  pane.triangles = {{0, 1, 2}, {0, 2, 3}};
+  pane.material = 0;
+  scene.meshes = {pane};
+  scene.nodes.resize(1);
+  scene.instances = {{0, 0, -1, ""}};
+  const trace::TransportScene source(scene);
+  const rays::PosedWorld world(source, 0);
+  ASSERT_TRUE(world.visible({0, 0, 3}, {0, 0, 4}));
+  const View view = look_at({0, 0, 3}, {0, 0, 0}, 0.9f);
+  const scene::Bounds thing{vec3(-1), vec3(1)};
+  ASSERT_GT(framed(view, thing, 1).eye.z, 3.5f) << "or the pane is in nobody's way";
+  const View framed = framed_within(view, thing, 1, world);
+  EXPECT_LT(framed.eye.z, 3.5f);
+  EXPECT_GT(framed.eye.z, 3) << "but it goes back as far as there is room";
+  EXPECT_LT(orbited_within(look_at({0, 3.1f, 0}, vec3(0), 0.9f), vec3(0), 0, -1.3f, world).eye.z, 3.5f);
+  // From outside it is framed from outside
+  EXPECT_GT(framed_within(look_at({0, 0, 7}, vec3(0), 0.9f), thing, 1, world).eye.z, 3.5f);
 }
 
 }  // namespace

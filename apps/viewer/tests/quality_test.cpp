@@ -69,8 +69,8 @@ TEST(ViewerQuality, CostIsThatOfNowInProportion) {
   EXPECT_DOUBLE_EQ(best.live_seconds, 2 * (best.surfels * 256 + 10 * 4096) / (1000.0 * 128 + 10 * 384));
   EXPECT_DOUBLE_EQ(best.bytes, 64e6 + 2000 * best.surfels + 45 * (best.surfels * 256 + 10 * 4096));
   EXPECT_EQ(cost_text(Quality::best, known),
-            "GEN: 16.2 million paths, with VIZ some 3 min\n"
-            "live: up to 7840 surfels, 0.2 GB, some 31 s");
+            "GEN: 16.2 million paths, with VIZ some\u00a03\u00a0min\n"
+            "live: up to 7840 surfels, 0.2\u00a0GB, some\u00a031\u00a0s");
 }
 
 class QualityPicker : public PanelStage {

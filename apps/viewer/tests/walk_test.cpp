@@ -136,6 +136,20 @@ TEST(Walk, BeginsOnTheGroundAheadWhereNoneIsBelow) {
   EXPECT_FALSE(at({-9, 2, 0}, {-10, 2, 0})) << "it looks away";
 }
 
+TEST(Walk, StandsStillWithoutAWay) {
+  // Grounds high above 0, as in scenes of other units: rays meet them within rounding.
+  for (int i = 0; i < 40; ++i) {
+    const float high = 100 + 0.137f * static_cast<float>(i);
+    const Ground ground({{{-5, -0.1f, -5}, {5, high, 5}}, {{0.1f, high, -1}, {1, high + 0.3f, 1}}});
+    View view = ground.after(ground.from({-0.1f * static_cast<float>(i % 5), high, 0}), 2, {0, 0});
+    for (int turn = 0; turn < 20; ++turn) {
+      const View next = walked(view, {0, 0}, ground.walker, ground.world, 0.05f);
+      ASSERT_EQ(next, view) << high << ", turn " << turn;
+      view = next;
+    }
+  }
+}
+
 TEST(Walk, PassesANarrowGap) {
   const Ground ground({floor_of_ten, {{2, 0, -5}, {2.2f, 3, -0.3f}}, {{2, 0, 0.3f}, {2.2f, 3, 5}}});
   EXPECT_GT(ground.after(ground.from({0, 0, 0.05f}), 4).eye.x, 3);
