@@ -11,7 +11,18 @@ namespace ssphh::viewer {
 
 void App::arrange_views() {
   const int count = scene_open() ? settings.views : 1;
-  if (static_cast<int>(others.size()) + 1 > count) others.clear(), place = 0;
+  const int before = static_cast<int>(others.size()) + 1;
+  if (before > count) {
+    // The last places go; who is left moves up.
+    std::ranges::sort(others, {}, &Pane::place);
+    others.resize(static_cast<std::size_t>(count) - 1);
+    place = std::min(place, count - 1), rendered_ = -1;
+    int next = 0;
+    for (Pane& other : others) {
+      if (next == place) ++next;
+      other.place = next++;
+    }
+  }
   while (static_cast<int>(others.size()) + 1 < count) {
     Pane pane;
     pane.beside = true;
@@ -31,6 +42,7 @@ void App::arrange_views() {
 }
 
 void App::take_view_at(float x, float y) {
+  if (frames) return;  // they are of the view at work
   const auto under = std::ranges::find_if(others, [&](const Pane& p) { return p.viewport.contains(x, y); });
   if (under == others.end()) return;
   std::swap<Pane>(*this, *under);

@@ -172,14 +172,19 @@ void draw_sign(const App& app, ImDrawList& list) {
   if (several)
     list.AddRect({r.x, r.y}, {r.x + r.width, r.y + r.height},
                  app.beside ? IM_COL32(70, 70, 74, 255) : IM_COL32(255, 190, 80, 255), 0, 0, 2);
-  std::string text = several ? view_name(app.view) : "";
-  if (app.walking) text += text.empty() ? "walking, V ends" : ", walking";
-  if (text.empty()) return;
-  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-  const ImVec2 at{r.x + 12, r.y + 11};
+  std::vector<std::string> texts;
+  if (several) texts = {view_name(app.view)};
+  if (app.walking) texts = {several ? texts[0] + ", walking" : "walking, V ends", "walking"};
+  // The longest that there is room for
+  const auto fits = [&](const std::string& t) { return ImGui::CalcTextSize(t.c_str()).x + 24 <= r.width; };
+  const auto fitting = std::ranges::find_if(texts, fits);
+  if (fitting == texts.end()) return;
+  const ImVec2 size = ImGui::CalcTextSize(fitting->c_str());
+  // Where neither offers, plots nor the legend stand
+  const ImVec2 at{r.x + r.width - size.x - 12, r.y + r.height - size.y - 11};
   list.AddRectFilled({at.x - 6, at.y - 3}, {at.x + size.x + 6, at.y + size.y + 3}, IM_COL32(20, 20, 22, 170),
                      3);
-  list.AddText(at, IM_COL32_WHITE, text.c_str());
+  list.AddText(at, IM_COL32_WHITE, fitting->c_str());
 }
 
 }  // namespace

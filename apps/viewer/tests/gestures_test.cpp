@@ -79,6 +79,7 @@ TEST(Gestures, KeysChangeWhatTheyName) {
   expect_key('G', s, [](Settings& e) { e.graph = true; });
   expect_key('L', s, [](Settings& e) { e.lobes = e.balls = true; });
   expect_key(' ', s, [](Settings& e) { e.play = true; });
+  expect_key('M', s, [](Settings& e) { e.views = 2; });
   expect_key('[', s, [](Settings& e) { e.exposure = -0.5f, e.auto_exposure = false; });
   expect_key(']', s, [](Settings& e) { e.exposure = 0.5f, e.auto_exposure = false; });
   expect_key('\\', s, [](Settings& e) { e.auto_exposure = false; });

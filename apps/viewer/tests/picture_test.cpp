@@ -49,7 +49,7 @@ TEST(PictureSettings, ThoseOfTheScreenAndTheTruthLeaveThePictureAsItIs) {
   const std::set<std::string> others = {"scale",       "show",      "wipe",      "block",       "against",
                                         "truth-depth", "truth-spp", "graph",     "names",       "play",
                                         "speed",       "histogram", "waveform",  "false-color", "draw",
-                                        "quality",     "snap",      "snap-step", "snap-angle"};
+                                        "quality",     "snap",      "snap-step", "snap-angle",  "views"};
   for (const SettingName& setting : setting_names()) {
     Settings changed;
     const std::string now = setting.get(changed);

@@ -59,8 +59,9 @@ TEST(Settings, StartAtTheirDefaults) {
       {"weights", "surface"}, {"operator", "mean"},     {"neighbors", "-1"},   {"threshold", "0"},
       {"balls", "off"},       {"ball", "radiance"},     {"ball-size", "0"},    {"lobes", "off"},
       {"graph", "off"},       {"names", "off"},         {"play", "off"},       {"speed", "0.5"},
-      {"antialias", "on"},    {"histogram", "off"},     {"waveform", "off"},   {"false-color", "off"},
-      {"draw", "none"},       {"snap", "off"},          {"snap-step", "0"},    {"snap-angle", "15"}};
+      {"antialias", "on"},    {"histogram", "off"},     {"waveform", "off"},   {"views", "1"},
+      {"false-color", "off"}, {"draw", "none"},         {"snap", "off"},       {"snap-step", "0"},
+      {"snap-angle", "15"}};
   std::map<std::string, std::string> got;
   for (const SettingName& setting : setting_names()) got[setting.name] = setting.get(Settings{});
   EXPECT_EQ(got, wanted);
@@ -71,6 +72,7 @@ TEST(Settings, NumbersHaveLimits) {
     const char *name, *under, *low, *high, *over;
   };
   for (const Limits& l : {Limits{"exposure", "-20.01", "-20", "20", "20.01"},
+                          {"views", "0", "1", "4", "5"},
                           {"scale", "0.099", "0.1", "2", "2.01"},
                           {"indirect-scale", "0", "1", "8", "9"},
                           {"wipe", "-0.01", "0", "1", "1.01"},
@@ -110,6 +112,7 @@ TEST(Settings, GoWhereTheirNameSays) {
       {"false-color", "on", [](Settings& s) { s.false_color = true; }},
       {"draw", "voxels", [](Settings& s) { s.draw = {methods::Drawing::voxels}; }},
       {"antialias", "off", [](Settings& s) { s.antialias = false; }},
+      {"views", "3", [](Settings& s) { s.views = 3; }},
       {"scale", "0.5", [](Settings& s) { s.scale = 0.5f; }},
       {"indirect-scale", "2", [](Settings& s) { s.indirect_scale = 2; }},
       {"show", "signed", [](Settings& s) { s.show = Show::signed_; }},

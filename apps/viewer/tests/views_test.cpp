@@ -1,5 +1,9 @@
 // Several views side by side: which there are, what a press in one does, and what is drawn when.
 
+#include <algorithm>
+#include <array>
+#include <numeric>
+
 #include <GLFW/glfw3.h>
 #include <gmock/gmock.h>
 
@@ -52,6 +56,53 @@ TEST_F(SideBySide, TheKeyGoesOnFromOneToTwoAndFour) {
     }
   }
   EXPECT_EQ(app().viewport.width, app().area.width);
+}
+
+TEST_F(SideBySide, FewerKeepTheOneAtWorkAndThoseOfTheFirstPlaces) {
+  show(4);
+  for (int place = 0; place < 4; ++place) {
+    show(4);
+    const auto at_place = [&](const Pane& pane) { return pane.place == place; };
+    const auto other = std::ranges::find_if(app().others, at_place);
+    const Pane& pane = other == app().others.end() ? static_cast<const Pane&>(app()) : *other;
+    const vec2 there = middle(pane);
+    app().take_view_at(there.x, there.y);
+    const View view = app().view;
+    for (const int count : {3, 2}) {
+      show(count);
+      EXPECT_EQ(app().view, view) << place;
+      std::vector<int> places{app().place};
+      for (const Pane& p : app().others) places.push_back(p.place);
+      std::vector<int> wanted(count);
+      std::iota(wanted.begin(), wanted.end(), 0);
+      EXPECT_THAT(places, testing::UnorderedElementsAreArray(wanted));
+    }
+  }
+}
+
+TEST_F(SideBySide, SignsAreWholeWordsInNarrowViewsOfDenseScreens) {
+  start(800, 600, 2);
+  app().take_document(document("two-rooms"));
+  app().view = look_at({-1, 1.5f, 1.9f}, {-4, 1, 0}, 1);
+  show(4);
+  press({GLFW_KEY_V});
+  ASSERT_TRUE(app().walking);
+  for (int i = 0; i < 3; ++i) {
+    std::vector<unsigned char> none;
+    window_->begin_frame({});
+    draw_panels(app());
+    for (Pane& other : app().others) {
+      const PaneTurn turn(app(), other);
+      draw_overlay(app(), none);
+    }
+    draw_overlay(app(), none);
+    window_->end_frame();
+  }
+  for (const DrawnThing& thing : all_things()) {
+    if (thing.text == "walking" || thing.text == "top") EXPECT_FALSE(thing.cut) << thing.text;
+    EXPECT_NE(thing.text, "perspective, walking") << "there is no room for it";
+  }
+  EXPECT_TRUE(shows("walking"));
 }
 
 TEST_F(SideBySide, AreNamedAndTheOneAtWorkIsFramed) {
