@@ -99,7 +99,9 @@ TEST_F(SideBySide, SignsAreWholeWordsInNarrowViewsOfDenseScreens) {
     window_->end_frame();
   }
   for (const DrawnThing& thing : all_things()) {
-    if (thing.text == "walking" || thing.text == "top") EXPECT_FALSE(thing.cut) << thing.text;
+    if (thing.text == "walking" || thing.text == "top") {
+      EXPECT_FALSE(thing.cut) << thing.text;
+    }
     EXPECT_NE(thing.text, "perspective, walking") << "there is no room for it";
   }
   EXPECT_TRUE(shows("walking"));
