@@ -116,6 +116,10 @@ Renderer::Renderer(gl::Context& context, const scene::Scene& scene, const Render
   require(std::isfinite(time), "time", "it must be a finite number of seconds");
   context.forget_errors();
   data_ = std::make_unique<Data>(context, scene, params, time, engines);
+  // What was uploaded is at full strength, dark groups as well.
+  const scene::LightingState own = data_->lighting;
+  data_->lighting.group_scales.assign(own.group_scales.size(), vec3(1));
+  set(own);
   context.throw_on_error("uploading the scene");
 }
 Renderer::~Renderer() = default;
