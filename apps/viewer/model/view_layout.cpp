@@ -20,6 +20,25 @@ Rect2 half(const Rect2& area, bool second, bool beside) {
   return out;
 }
 
+/// What of the scene is no farther on the level than 2.5 times the longest way to a wall: of a house on a
+/// wide ground the house. All of it where there are no walls.
+scene::Bounds around(const vec3& eye, const scene::Bounds& bounds, const rays::PosedWorld& world) {
+  float longest = 0;
+  for (const vec3 direction : {vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 0, 1), vec3(0, 0, -1)}) {
+    const rays::RayQuery ray{eye, direction};
+    rays::RayHit hit;
+    world.intersect({&ray, 1}, {&hit, 1});
+    if (!hit.escaped()) longest = std::max(longest, hit.distance);
+  }
+  if (longest == 0) return bounds;
+  scene::Bounds near = bounds;
+  for (const int axis : {0, 2}) {
+    near.min[axis] = std::max(near.min[axis], eye[axis] - 2.5f * longest);
+    near.max[axis] = std::min(near.max[axis], eye[axis] + 2.5f * longest);
+  }
+  return near.empty() ? bounds : near;
+}
+
 }  // namespace
 
 Rect2 cell(const Rect2& area, int place, int count) {
@@ -37,12 +56,13 @@ vec3 first_direction(int place) {
   return directions[std::clamp(place - 1, 0, 2)];
 }
 
-View section(const View& view, const vec3& direction, const scene::Bounds& bounds, float aspect,
+View section(const View& view, const vec3& direction, const scene::Bounds& whole, float aspect,
              const rays::PosedWorld& world) {
   const vec3 back = -glm::normalize(direction);
   View out = seen_along(view, direction);
   if (!out.orthographic) out = with_other_projection(out);
-  if (bounds.empty()) return out;
+  if (whole.empty()) return out;
+  const scene::Bounds bounds = around(view.eye, whole, world);
   const auto extent = [&](const vec3& axis) { return glm::dot(glm::abs(axis), bounds.max - bounds.min); };
   out = framed(out, bounds, aspect);
   out.yheight = 1.05f * std::max({extent(out.up()), extent(out.right()) / aspect, 1e-3f});

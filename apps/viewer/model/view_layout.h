@@ -19,9 +19,10 @@ Rect2 cell(const Rect2& area, int place, int count);
 /// Where a view of that place looks along at first: from above, from the front, from the right.
 vec3 first_direction(int place);
 
-/// All of `bounds` along a direction (any length but 0), orthographic, from as far away as `view` has free
-/// way to the other side: within a room without its ceiling or its near wall.
-View section(const View& view, const vec3& direction, const scene::Bounds& bounds, float aspect,
+/// The `whole` scene, or of a wide one what is around the view, along a direction (any length but 0),
+/// orthographic, from as far away as `view` has free way to the other side: within a room without its ceiling
+/// or its near wall.
+View section(const View& view, const vec3& direction, const scene::Bounds& whole, float aspect,
              const rays::PosedWorld& world);
 
 /// "top", "front", "right" and the opposite sides for orthographic views along an axis; "orthographic",

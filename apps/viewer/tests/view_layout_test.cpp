@@ -90,6 +90,17 @@ TEST_F(Section, ShowsAllOfTheSceneFromWithinTheRoom) {
   }
 }
 
+TEST_F(Section, LeavesOutAWideGroundAroundTheHouse) {
+  scene::Bounds wide = bounds_;
+  wide.min.x = wide.min.z = -200, wide.max.x = wide.max.z = 200;
+  const View view = look_at({-1, 1.5f, 1.9f}, {-4, 1, 0}, 1);
+  const View cut = section(view, {0, -1, 0}, wide, 1, world_);
+  EXPECT_LT(cut.yheight, 6 * (bounds_.max.x - bounds_.min.x));
+  EXPECT_GT(cut.yheight, 0.5f * (bounds_.max.x - bounds_.min.x));
+  EXPECT_GT(section(look_at({0, 30, 30}, {0, 0, 0}, 1), {0, -1, 0}, wide, 1, world_).yheight, 400)
+      << "from outside there are no walls: all of it";
+}
+
 TEST_F(Section, OfWhatIsSeenFromOutsideCutsNothing) {
   const View view = look_at({0, 30, 30}, {0, 0, 0}, 1);
   const View cut = section(view, {0, -1, 0}, bounds_, 1, world_);
