@@ -20,7 +20,7 @@ Rect2 half(const Rect2& area, bool second, bool beside) {
   return out;
 }
 
-/// What of the scene is no farther on the level than 2.5 times the longest way to a wall: of a house on a
+/// What of the scene is no farther on the level than 3.5 times the longest way to a wall: of a house on a
 /// wide ground the house. All of it where there are no walls.
 scene::Bounds around(const vec3& eye, const scene::Bounds& bounds, const rays::PosedWorld& world) {
   float longest = 0;
@@ -33,8 +33,8 @@ scene::Bounds around(const vec3& eye, const scene::Bounds& bounds, const rays::P
   if (longest == 0) return bounds;
   scene::Bounds near = bounds;
   for (const int axis : {0, 2}) {
-    near.min[axis] = std::max(near.min[axis], eye[axis] - 2.5f * longest);
-    near.max[axis] = std::min(near.max[axis], eye[axis] + 2.5f * longest);
+    near.min[axis] = std::max(near.min[axis], eye[axis] - 3.5f * longest);
+    near.max[axis] = std::min(near.max[axis], eye[axis] + 3.5f * longest);
   }
   return near.empty() ? bounds : near;
 }
