@@ -333,6 +333,7 @@ class App : public Pane {
   void draw_views();
   void begin_picture();
   void continue_picture();
+  void show_first_exposure();
   void finish_picture(const Drawing& done);
   void draw_balls();
   void draw_outline();
@@ -342,20 +343,17 @@ class App : public Pane {
   /// Marks are drawn over a picture once it is whole.
   void update_marks();
   bool draws_marks() const { return !settings.draw.empty() && !settings.false_color; }
-  /// Whether marks are over the picture of now.
   bool marked() const;
   MarkedFor marks_key() const;
   /// What methods may stand on: the geometry knows nodes of the scene as opened, edits may bring others;
   /// null: they build their own.
   trace::SharedGeometry geometry_of_methods(const scene::Scene& edited) const;
-  /// Writes the picture's light, if that was asked for and it is there.
+  /// Writes the picture's light, or sends the picture elsewhere, if that was asked for and it is there.
   void write_linear();
-  /// Sends the picture elsewhere, if that was asked for and it is there.
   void send_picture();
   void send_truth();
   void update_visible();
   std::optional<float> suitable_exposure() const;
-  bool show_exposure(float ev);
   bool smooths() const {
     return settings.antialias && !needs_truth(settings) && !settings.false_color && !draws_marks();
   }

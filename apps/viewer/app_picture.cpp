@@ -13,6 +13,13 @@
 #include "overlay.h"
 
 namespace ssphh::viewer {
+namespace {
+
+bool change(float& value, float now) {
+  return std::exchange(value, now) != now;
+}
+
+}  // namespace
 
 /// A software renderer takes a second for a large picture: while something moves it gets a small one.
 void App::resize_picture() {
@@ -156,7 +163,17 @@ void App::continue_picture() {
   redraw();
 }
 
+/// Drawn before anybody knew what suits it, a scene's first picture is shown as suits it.
+void App::show_first_exposure() {
+  if (!follows_exposure || !exposure_.is_first()) return;
+  screen.suits = suitable_exposure();
+  if (!follow_exposure()) return;
+  renderer_->show_again(shown_tone(settings));
+  screen.drawn->settings.exposure = settings.exposure;
+}
+
 void App::finish_picture(const Drawing& done) {
+  if (!done.smooth && !beside) show_first_exposure();
   draw_balls();
   ++screen.pictures;
   if (screen.linear_file && screen.linear_file->begun) screen.linear_file->mean.add(renderer_->read_back());
@@ -201,16 +218,12 @@ std::optional<float> App::suitable_exposure() const {
   return image::automatic_exposure(some, settings.curve);
 }
 
-bool App::show_exposure(float ev) {
-  return std::exchange(settings.exposure, ev) != ev;
-}
-
 bool App::follow_exposure() {
-  return screen.suits && show_exposure(exposure_.follow(*screen.suits));
+  return screen.suits && change(settings.exposure, exposure_.follow(*screen.suits));
 }
 
 bool App::take_exposure() {
-  return screen.suits && show_exposure(exposure_.take(*screen.suits));
+  return screen.suits && change(settings.exposure, exposure_.take(*screen.suits));
 }
 
 void App::show_elsewhere() {

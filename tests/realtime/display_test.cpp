@@ -80,13 +80,13 @@ TEST_F(Display, AFrameShownAgainHasTheBitsOfOneDrawnSo) {
   const std::vector<std::uint8_t> dark = shown(settings);
   settings.tone = {1, image::ToneCurve::clip, 0};
   const std::vector<std::uint8_t> bright = shown(settings);
-  const image::Image light = renderer_->read_back();
+  const std::vector<float> light = renderer_->read_back().pixels;
   EXPECT_NE(dark, bright);
   renderer_->show_again({-2, image::ToneCurve::filmic, 0});
   EXPECT_EQ(gl::read_pixels(framebuffer_.id(), place), dark);
   renderer_->show_again({1, image::ToneCurve::clip, 0});
   EXPECT_EQ(gl::read_pixels(framebuffer_.id(), place), bright);
-  EXPECT_EQ(renderer_->read_back(), light);
+  EXPECT_EQ(renderer_->read_back().pixels, light);
 
   renderer_->draw(scene::camera_pose(scene_, ""), settings, {.width = 8, .height = 8});
   EXPECT_THROW(renderer_->show_again({}), Error) << "it was shown nowhere";
