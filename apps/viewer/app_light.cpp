@@ -131,6 +131,7 @@ void App::start_light(const std::string& name, const LiveLightParams& params,
       job.hand_over([this, placed, coarse] {
         placed(*coarse);
         light.take(coarse);
+        screen.is_new = true;
       });
     };
     std::function<void(std::shared_ptr<LiveLight>)> glance;
@@ -140,6 +141,7 @@ void App::start_light(const std::string& name, const LiveLightParams& params,
       live_seconds_ = job.status().seconds;
       if (!dark) placed(*live);
       light.take(live);
+      screen.is_new = true;
       prepare_surfaces();
     };
   });

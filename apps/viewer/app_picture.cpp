@@ -21,11 +21,16 @@ bool change(float& value, float now) {
 
 }  // namespace
 
-/// A software renderer takes a second for a large picture: while something moves it gets a small one.
+/// A software renderer takes a second for a large picture: while something moves it gets a small one, and
+/// what nobody saw yet, a scene or its light, is shown small first.
 void App::resize_picture() {
+  constexpr float large = 2e5f;  // pixels
   const bool moving = drag.changes_picture() || settings.play || path_plays;
-  if (!moving) screen.coarse = false;
-  if (moving && last_stats.cpu_ms > 80) screen.coarse = true;
+  const bool waits = light.empty() && job.running();  // its light will be there soon
+  const bool soon = (screen.is_new || waits) && by_hand() && viewport.width * viewport.height > large;
+  const bool slow = screen.drawn ? last_stats.cpu_ms > 80 : gl_->info().software;
+  if (!moving && !soon) screen.coarse = false;
+  if ((moving || soon) && slow) screen.coarse = true;
   const float scale = settings.scale * (screen.coarse ? 0.4f : 1.0f);
   picture.resize(std::max(1, static_cast<int>(std::lround(viewport.width * scale))),
                  std::max(1, static_cast<int>(std::lround(viewport.height * scale))));
@@ -148,7 +153,7 @@ void App::begin_picture() {
   if (screen.linear_file) screen.linear_file->begun = true, screen.linear_file->mean = {};
   begin_drawing({false, 0}, frame_settings(settings));
   screen.drawn = {view, settings, selection, picture.width(), picture.height()};
-  screen.scene_dirty = false;
+  screen.scene_dirty = screen.is_new = false;
 }
 
 /// As many pieces as leave time for the interface, at least one; where nobody sits there, all.

@@ -66,7 +66,8 @@ struct Screen {
   int pictures = 0;                ///< that became whole
   int waiting_maps = 0;            ///< shadow maps that the picture still lacks
   std::optional<float> suits;      ///< EV that suits it, where it is to be followed
-  bool coarse = false;             ///< something moves and frames are slow: fewer pixels meanwhile
+  bool is_new = true;              ///< the scene or its light: no picture shows it yet
+  bool coarse = false;             ///< that, or something moves, and frames are slow: fewer pixels meanwhile
 
   std::optional<Ball> balls;                           ///< what the balls over it are coloured by
   std::optional<std::pair<DrawnWith, float>> outline;  ///< of what is selected, and when in the scene
@@ -96,7 +97,7 @@ struct Screen {
     drawn.reset(), drawing.reset(), outline.reset(), visible_from.reset(), readings.reset();
     marked.reset(), linear_file.reset();
     to_send = false;
-    scene_dirty = true;
+    is_new = scene_dirty = true;
   }
 };
 
