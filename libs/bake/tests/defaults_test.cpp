@@ -46,7 +46,7 @@ TEST(Defaults, OfBakesByTransport) {
   EXPECT_EQ(params.viz_params.neighbors, 16);
   EXPECT_EQ(params.viz_params.threshold, 0);
   EXPECT_EQ(params.viz_params.source, probes::VizSource::intensity);
-  EXPECT_EQ(params.viz_params.solve.tolerance, 1e-2f);
+  EXPECT_EQ(params.viz_params.solve.tolerance, 3e-2f);
   EXPECT_EQ(params.viz_params.solve.max_iterations, 300);
   EXPECT_EQ(params.fit_params.probes, 12);
   EXPECT_EQ(params.fit_params.training_lights, 24);
