@@ -15,8 +15,8 @@ struct LinkVizParams {
   int neighbors = 16;   ///< N′: each probe keeps at most so many edges, those with the largest P; −1: all
   float threshold = 0;  ///< and only those with P above it
   probes::VizSource source = probes::VizSource::intensity;
-  /// Of what bounces more than once. P and H are for ranking and for HIER: finer than what the spheres' coarse
-  /// shadows leave.
+  /// Of what bounces more than once. P and H are for ranking and for HIER: finer than what the spheres'
+  /// coarse shadows leave.
   SolveParams solve{.tolerance = 3e-2f};
 };
 
