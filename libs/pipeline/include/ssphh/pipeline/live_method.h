@@ -25,7 +25,7 @@ class LiveMethod {
   LiveMethod(const LiveMethod&) = delete;
   LiveMethod& operator=(const LiveMethod&) = delete;
 
-  /// One frame; its time is added to figures().
+  /// One frame; figures() has its time.
   void update(const scene::LightingState& state, const Control& control);
 
   methods::Method& method() { return *method_; }
