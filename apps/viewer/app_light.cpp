@@ -120,26 +120,26 @@ void App::place_probes(float spacing) {
   });
 }
 
-/// Lights the scene at a glance first, where nothing does. `placed` is called once, before the first light is
-/// taken.
+/// Where somebody looks at a scene that nothing lights, at a glance first. `placed` is called once, before
+/// the first light is taken.
 void App::start_light(const std::string& name, const LiveLightParams& params,
                       const std::function<void(const LiveLight&)>& placed) {
   auto scene = std::make_shared<const scene::Scene>(with_materials(*document.scene, document.edits()));
-  const bool dark = !light.live();
-  job.start(name, [this, scene, params, placed, dark, time = document.time](const Control& control) {
-    const auto take_glance = [this, placed](const std::shared_ptr<LiveLight>& coarse) {
+  std::function<void(std::shared_ptr<LiveLight>)> glance;
+  if (light.empty() && by_hand()) {
+    glance = [this, placed](const std::shared_ptr<LiveLight>& coarse) {
       job.hand_over([this, placed, coarse] {
         placed(*coarse);
         light.take(coarse);
         screen.is_new = true;
       });
     };
-    std::function<void(std::shared_ptr<LiveLight>)> glance;
-    if (dark) glance = take_glance;
+  }
+  job.start(name, [this, scene, params, placed, glance, time = document.time](const Control& control) {
     auto live = find_light(scene, params, time, control, glance);
-    return [this, placed, dark, live] {
+    return [this, placed, is_placed = glance != nullptr, live] {
       live_seconds_ = job.status().seconds;
-      if (!dark) placed(*live);
+      if (!is_placed) placed(*live);
       light.take(live);
       screen.is_new = true;
       prepare_surfaces();

@@ -23,12 +23,16 @@ class GlStage : public AppStage {
     }
     options_.panels = false;
     prepare();
-    start(64, 48);
+    start(size_.x, size_.y);
     ready();
   }
   void TearDown() override { app_.reset(); }
 
-  /// Sets options before the App starts.
+  bool software() const { return context_->info().software; }
+
+  glm::ivec2 size_{64, 48};  ///< of the window, pixels
+
+  /// Sets options, and the size, before the App starts.
   virtual void prepare() = 0;
   /// After it has.
   virtual void ready() = 0;

@@ -63,28 +63,6 @@ TEST(PictureSettings, ThoseOfTheScreenAndTheTruthLeaveThePictureAsItIs) {
   EXPECT_TRUE(same_picture({}, {}));
 }
 
-class FirstPicture : public GlStage {
- protected:
-  void prepare() override {
-    options_.probes = "off";
-    options_.settings = {{"antialias", "off"}};
-  }
-  void ready() override { app().open("builtin:cornell"); }
-};
-
-TEST_F(FirstPicture, IsShownAsSuitsItAndDrawnOnce) {
-  ASSERT_TRUE(turn_until([&] { return app().screen.pictures > 0; }, [&] { turn(); }));
-  ASSERT_TRUE(app().screen.suits);
-  EXPECT_NE(*app().screen.suits, Settings{}.exposure) << "nothing is told by what suits at once";
-  EXPECT_EQ(app().settings.exposure, *app().screen.suits);
-  const std::vector<std::uint8_t> first = app().picture.pixels().rgba;
-  for (int i = 0; i < 5; ++i) turn();
-  EXPECT_EQ(app().screen.pictures, 1);
-  app().screen.scene_dirty = true;
-  ASSERT_TRUE(turn_until([&] { return app().screen.pictures > 1; }, [&] { turn(); }));
-  EXPECT_EQ(app().picture.pixels().rgba, first) << "as it would be drawn with that exposure";
-}
-
 /// One App after the other in one context: compiling the renderer's shaders is what takes time.
 class PictureTest : public GlStage {
  protected:

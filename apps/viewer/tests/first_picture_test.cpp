@@ -1,0 +1,60 @@
+// What is seen of a scene before all of its light is there.
+
+#include <utility>
+#include <vector>
+
+#include "gl_stage.h"
+
+namespace ssphh::viewer {
+namespace {
+
+class FirstPicture : public GlStage {
+ protected:
+  void prepare() override {
+    options_.probes = "off";
+    options_.settings = {{"antialias", "off"}};
+  }
+  void ready() override { app().open("builtin:cornell"); }
+};
+
+TEST_F(FirstPicture, IsShownAsSuitsItAndDrawnOnce) {
+  ASSERT_TRUE(turn_until([&] { return app().screen.pictures > 0; }, [&] { turn(); }));
+  ASSERT_TRUE(app().screen.suits);
+  EXPECT_NE(*app().screen.suits, Settings{}.exposure) << "nothing is told by what suits at once";
+  EXPECT_EQ(app().settings.exposure, *app().screen.suits);
+  const std::vector<std::uint8_t> first = app().picture.pixels().rgba;
+  for (int i = 0; i < 5; ++i) turn();
+  EXPECT_EQ(app().screen.pictures, 1);
+  app().screen.scene_dirty = true;
+  ASSERT_TRUE(turn_until([&] { return app().screen.pictures > 1; }, [&] { turn(); }));
+  EXPECT_EQ(app().picture.pixels().rgba, first) << "as it would be drawn with that exposure";
+}
+
+class LargeFirstPicture : public GlStage {
+ protected:
+  void prepare() override {
+    size_ = {600, 400};
+    options_.probes = "auto:2";
+    options_.records = 0;
+    options_.transport = {.directions = 32, .surfel_size = 0.5f, .link_rays = 8};
+    options_.settings = {{"antialias", "off"}};
+  }
+  void ready() override { app().open_lit("builtin:two-rooms"); }
+};
+
+TEST_F(LargeFirstPicture, OfASceneAndOfItsLightAreSmallAndThenWhole) {
+  std::vector<int> dark, lit;  // widths of the pictures that became whole
+  int pictures = 0;
+  ASSERT_TRUE(turn_until([&] { return app().settled() && !lit.empty(); },
+                         [&] {
+                           turn();
+                           if (std::exchange(pictures, app().screen.pictures) != app().screen.pictures)
+                             (app().light.empty() ? dark : lit).push_back(app().picture.width());
+                         }));
+  EXPECT_EQ(lit.front(), software() ? 240 : 600);
+  EXPECT_EQ(lit.back(), 600);
+  for (const int width : dark) EXPECT_EQ(width, software() ? 240 : 600) << "while light is on its way";
+}
+
+}  // namespace
+}  // namespace ssphh::viewer
