@@ -112,7 +112,9 @@ void add_view_command(Command app, Context& context) {
       add_command(app, context, "view", "Look at a scene lit by probes, in a window", run_view);
   add_scene_options(command, o.scene);
   command["SCENE"].required(false);
-  command.option("--camera", o.viewer.camera, "Camera by name; default: the scene's first");
+  command.option(
+      "--camera", o.viewer.camera,
+      "Camera by name, or X,Y,Z:TO_X,TO_Y,TO_Z[:DEGREES] as of `render`; default: the scene's first");
   command.option("--size", o.size, "Of the window, WIDTHxHEIGHT");
   command.flag("--no-panels", o.no_panels, "The picture alone (Tab brings the panels)");
   add_tev_option(

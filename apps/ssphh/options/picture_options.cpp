@@ -12,7 +12,10 @@
 namespace ssphh::app {
 
 void add_camera_option(Command command, std::string& camera) {
-  command.option("--camera", camera, "Camera by name; default: the scene's first, or a view of what matters");
+  command.option(
+      "--camera", camera,
+      "Camera by name, or X,Y,Z:TO_X,TO_Y,TO_Z[:DEGREES], an eye, what it looks at and the vertical field "
+      "of view [m, world]; default: the scene's first, or a view of what matters");
 }
 
 void add_size_options(Command command, int& width, int& height, int most) {

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <ssphh/core/file.h>
+#include <ssphh/scene/placed_camera.h>
 #include <ssphh/scene_io/gltf_export.h>
 #include <ssphh/scene_io/load.h>
 
@@ -46,6 +47,7 @@ View start_view(const Document& document, const std::string& camera) {
   const auto named =
       std::ranges::find_if(cameras, [&](const CameraEdit& c) { return camera.empty() || c.name == camera; });
   if (named == cameras.end() && !camera.empty()) {
+    if (const auto placed = scene::placed_camera(camera)) return view_of(placed->pose, placed->distance);
     std::vector<std::string> names;
     for (const CameraEdit& c : cameras) names.push_back(c.name);
     throw Error(document.source, fmt::format("has no camera \"{}\"", camera),

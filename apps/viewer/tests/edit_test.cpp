@@ -336,6 +336,13 @@ TEST(Document, KnowsWhenAndHowLargeTheSceneIs) {
   EXPECT_EQ(document.bounds.max, bounds.max);
 }
 
+TEST(Document, StartsAtAPlaceThatIsGivenWithWhatItLooksAtInFocus) {
+  const View view = start_view(two_rooms(), "1,2,3:1,2,-1:40");
+  EXPECT_EQ(view.eye, vec3(1, 2, 3));
+  EXPECT_LT(glm::distance(view.center(), vec3(1, 2, -1)), 1e-5f);
+  EXPECT_FLOAT_EQ(view.yfov, glm::radians(40.0f));
+}
+
 TEST(Document, StartsWithTheMiddleOfTheSceneInFocus) {
   const Document document = two_rooms();
   const View view = start_view(document, "room-b");

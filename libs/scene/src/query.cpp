@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/require.h>
+#include <ssphh/scene/placed_camera.h>
 #include <ssphh/scene/query.h>
 
 namespace ssphh::scene {
@@ -131,6 +132,10 @@ Camera find_camera(const Scene& scene, const std::string& name) {
 }
 
 CameraPose camera_pose(const Scene& scene, const std::string& name, float time) {
+  const auto is_name = [&](const Camera& camera) { return camera.name == name; };
+  if (std::ranges::none_of(scene.cameras, is_name)) {
+    if (const auto placed = placed_camera(name)) return placed->pose;
+  }
   const std::vector<mat4> world = world_matrices(scene, time);
   if (name.empty() && scene.cameras.empty()) return front_camera(scene, world);
   const Camera camera = find_camera(scene, name);

@@ -69,6 +69,7 @@ struct CameraPose {
   mat4 world;  ///< camera to world
   Camera camera;
 };
+/// Of the camera of that name, as find_camera, or of one that `name` places (placed_camera.h).
 CameraPose camera_pose(const Scene& scene, const std::string& name, float time = 0);
 
 /// The places of the enabled SPHLs.
