@@ -187,6 +187,36 @@ TEST(RecordPlaces, AreNearMostPatches) {
   EXPECT_LT(std::ranges::count_if(patches, from_afar), 200);
 }
 
+TEST(RecordPlaces, AreDenserThanSurfelsBelowABall) {
+  // A room with a lamp, and a ball that touches its floor: half as far from there as a surfel is wide, the
+  // light is a fraction of what it is a surfel farther out.
+  constexpr float radius = 0.4f, size = 0.25f;
+  scene::Scene scene;
+  scene::Mesh room = scene::make_box({-1.5f, 0, -1.5f}, {1.5f, 2.2f, 1.5f});
+  for (uvec3& t : room.triangles) std::swap(t.y, t.z);
+  for (vec3& n : room.normals) n = -n;
+  add_body(scene, "room", std::move(room), {0.7f, 0.5f, 0.3f});
+  scene::Mesh ball = scene::make_sphere(radius);
+  for (vec3& x : ball.positions) x.y += radius;
+  add_body(scene, "ball", std::move(ball), {0.3f, 0.5f, 0.7f});
+  add_body(scene, "lamp", scene::make_box({-0.3f, 2.1f, -0.3f}, {0.3f, 2.15f, 0.3f}), vec3(0.6f), vec3(3));
+  add_sphl(scene, "probe", {0.8f, 1.2f, 0.7f});
+  scene::validate(scene);
+  const SolvedScene lit(std::move(scene), size);
+  std::vector<rays::SurfacePoint> ring;
+  for (int i = 0; i < 16; ++i) {
+    const float angle = 2 * pi * static_cast<float>(i) / 16;
+    ring.push_back({0.5f * size * vec3(std::cos(angle), 0, std::sin(angle)), {0, 1, 0}});
+  }
+  std::vector<probes::RecordLight> truth;
+  SurfaceGather(lit.network(), ring, 1024).light(lit.lit, truth);
+  const auto records = lit.where_needed(4000, 256);
+  const std::vector<double> errors = lit.errors_between(*records, ring, truth);
+  double error = 0, light = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) error += errors[i], light += double(glm::length(truth[i][3]));
+  EXPECT_LT(error, 0.4 * light) << "0.24; 0.80 where none stand but at surfels";
+}
+
 TEST(RecordPlaces, AreWhereLightAsksForThemInEveryPose) {
   // On the wall beside a door that stands ajar light changes within centimetres; while it is shut nothing
   // tells. Against gathers of many rays at places around the doorway.

@@ -30,37 +30,44 @@ class RecordPlaces {
       : source_(network.data_->source),
         surfel_sizes_(network.surfels()),
         all_(surfel_points(network)),
-        patches_(surfel_points(network, network.params().samples)) {
+        surfels_(all_.size()) {
     // As surfels do, records stand farther apart where probes are far
-    for (const rays::SurfacePoint& point : all_)
-      levels_.push_back(network.surfels().level(0, point.position));
-    surfels_ = all_.size();
+    for (const rays::SurfacePoint& point : all_) levels_.push_back(level_of(point));
     // Cubes too small for two surfels, however few there are, would not differ from larger ones
     const auto apart = static_cast<int>(std::min<std::size_t>(all_.size() - all_.size() / 10, most_records));
     if (!all_.empty()) grid_ = finest_grid(all_, levels_, std::min(most, apart));
     // Surfels do stand within walls: light that slips through where two bodies meet finds them. Nobody looks
     // in there, and a record beside the wall's foot would lend its darkness to the floor before it
     within_ = within_bodies(all_, surfel_sizes_, source_);
-    patches_within_ = within_bodies(patches_, surfel_sizes_, source_);
     if (everywhere) add_unseen(network, most / 4);
+    coarse_ = all_.size();
+    add_patches(network);
   }
 
-  /// First those of the network's still surfels, in their order.
+  /// First those of the network's still surfels, in their order; last those of the surfels' patches.
   const std::vector<rays::SurfacePoint>& all() const { return all_; }
   std::size_t surfels() const { return surfels_; }
+  bool is_patch(std::size_t place) const { return place >= coarse_; }
 
   /// Of each cube, `coarser` levels above its points' own, in which none of the chosen stands, the middle
-  /// one.
+  /// one. Patches count in cubes smaller than those levels that hold nothing else.
   std::vector<std::size_t> free(int coarser) const {
     std::set<PointCell> taken;
     for (const std::size_t i : chosen_) taken.insert(grid_.cell(all_[i], levels_[i] + coarser));
-    std::vector<int> levels = levels_;
-    for (int& level : levels) level += coarser;
     std::vector<std::size_t> result;
-    for (const auto& [cell, members] : grid_.sort(all_, levels)) {
-      const std::size_t middle = taken.contains(cell) ? all_.size() : middle_one(all_, members);
-      if (middle < all_.size() && !within_[middle]) result.push_back(middle);
-    }
+    const auto take_middles = [&](std::size_t first, std::size_t end) {
+      const std::span places = std::span(all_).subspan(first, end - first);
+      std::vector<int> levels(levels_.begin() + static_cast<std::ptrdiff_t>(first),
+                              levels_.begin() + static_cast<std::ptrdiff_t>(end));
+      for (int& level : levels) level += coarser;
+      for (const auto& [cell, members] : grid_.sort(places, levels)) {
+        if (!taken.insert(cell).second) continue;
+        const std::size_t middle = first + middle_one(places, members);
+        if (!within_[middle]) result.push_back(middle);
+      }
+    };
+    take_middles(0, coarse_);
+    if (coarser < 0) take_middles(coarse_, all_.size());
     std::ranges::sort(result);
     return result;
   }
@@ -72,29 +79,30 @@ class RecordPlaces {
     return points;
   }
 
-  /// Of all places, or of the surfels' patches, those that no known point lights but from afar, at most so
-  /// many, spread evenly.
+  /// Of the patches, or of all other places, those that no known point lights but from afar, at most so many,
+  /// spread evenly.
   std::vector<rays::SurfacePoint> unlit(const probes::SurfaceInterpolation& known, bool patches,
                                         std::size_t most, const Control& control) const {
-    const std::vector<rays::SurfacePoint>& asked = patches ? patches_ : all_;
-    std::vector<std::uint8_t> is(asked.size());
+    const std::size_t first = patches ? coarse_ : 0, count = patches ? all_.size() - coarse_ : coarse_;
+    std::vector<std::uint8_t> is(count);
     parallel_for(
-        asked.size(), 64,
+        count, 64,
         [&](std::size_t i) {
-          if ((patches ? patches_within_ : within_)[i]) return;
+          const rays::SurfacePoint& place = all_[first + i];
+          if (within_[first + i]) return;
           probes::SurfaceShares storage;
-          is[i] = std::ranges::none_of(known.at(asked[i], storage), [&](const probes::SurfaceShare& share) {
+          is[i] = std::ranges::none_of(known.at(place, storage), [&](const probes::SurfaceShare& share) {
             const float near = share_of_reach * probes::fitted_reach * known.spacing(share.point);
-            return glm::distance(known.position(share.point), asked[i].position) < near;
+            return glm::distance(known.position(share.point), place.position) < near;
           });
         },
         control);
     std::vector<rays::SurfacePoint> points;
     std::vector<int> levels;
-    for (std::size_t i = 0; i < asked.size(); ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
       if (!is[i]) continue;
-      points.push_back(asked[i]);
-      levels.push_back(patches ? surfel_sizes_.level(0, asked[i].position) : levels_[i]);
+      points.push_back(all_[first + i]);
+      levels.push_back(levels_[first + i]);
     }
     return points.empty() ? points : spread_points(points, static_cast<int>(most), levels);
   }
@@ -110,6 +118,8 @@ class RecordPlaces {
   }
 
  private:
+  int level_of(const rays::SurfacePoint& point) const { return surfel_sizes_.level(0, point.position); }
+
   /// Places that no surfel stands at are worth fewer points: their cubes are so large that at most so many
   /// hold any.
   void add_unseen(const TransportNetwork& network, int most) {
@@ -117,8 +127,7 @@ class RecordPlaces {
     if (others.empty()) return;
     if (all_.empty()) grid_ = finest_grid(others, {}, std::max(most, 1));
     std::vector<int> levels;
-    for (const rays::SurfacePoint& point : others)
-      levels.push_back(network.surfels().level(0, point.position));
+    for (const rays::SurfacePoint& point : others) levels.push_back(level_of(point));
     while (grid_.sort(others, levels).size() > static_cast<std::size_t>(std::max(most, 1)))
       for (int& level : levels) ++level;
     all_.insert(all_.end(), others.begin(), others.end());
@@ -126,11 +135,19 @@ class RecordPlaces {
     within_.resize(all_.size());
   }
 
+  void add_patches(const TransportNetwork& network) {
+    const std::vector<rays::SurfacePoint> patches = surfel_points(network, network.params().samples);
+    const std::vector<std::uint8_t> within = within_bodies(patches, surfel_sizes_, source_);
+    all_.insert(all_.end(), patches.begin(), patches.end());
+    within_.insert(within_.end(), within.begin(), within.end());
+    for (const rays::SurfacePoint& point : patches) levels_.push_back(level_of(point));
+  }
+
   const rays::TransportSource& source_;
   const SurfelSet& surfel_sizes_;
-  std::vector<rays::SurfacePoint> all_, patches_;
-  std::vector<std::uint8_t> within_, patches_within_;  ///< whether each lies within a body
-  std::size_t surfels_ = 0;
+  std::vector<rays::SurfacePoint> all_;
+  std::vector<std::uint8_t> within_;  ///< whether each lies within a body
+  std::size_t surfels_, coarse_ = 0;  ///< of all_, that are surfels; that are not patches
   std::vector<int> levels_;
   PointGrid grid_{vec3(0), 1};
   std::vector<std::size_t> chosen_;
@@ -148,6 +165,10 @@ constexpr float tolerance_of_mean = 0.002f;
 /// Halvings below an even spread of all points, where light alone asks for more: a plain takes most cubes of
 /// that spread and few of its points.
 constexpr int levels_below = 2;
+
+/// What must be missed at a patch, in tolerances: where something touches the ground, a surfel is too large
+/// to hold the dark below it.
+constexpr float patch_doubt = 4;
 
 /// What surfels got, by few rays and over all their extent, may be missed by so much.
 constexpr float surfel_tolerance = 0.25f;
@@ -282,7 +303,8 @@ std::unique_ptr<SurfaceGather> gather_where_needed(const TransportNetwork& netwo
       }
       const SurfelDoubts by_surfels(places, now.reflected, known, reflected);
       wanted = doubtful(places.free(coarser), room, control, [&](std::size_t place) {
-        const float by_points = doubt_at(places.all()[place], known, doubt);
+        const float by_points =
+            doubt_at(places.all()[place], known, doubt) / (places.is_patch(place) ? patch_doubt : 1);
         return by_points >= 1 ? by_points : by_surfels.at(place);
       });
       if (!wanted.empty()) gather->append(gather_at(places.choose(wanted)));
