@@ -140,6 +140,7 @@ std::span<const SurfaceShare> SurfaceInterpolation::at(const rays::SurfacePoint&
     if (p == without) return;
     const Point& point = points_[p];
     const float spacing = point.spacing, cosine = glm::dot(vec3(point.normal), n) / 32767.0f;
+    if (!(cosine > fitted_cosine)) return;  // most of a room's, before what a share costs
     const float by_surface =
         share_by_surface(std::sqrt(distance2), glm::dot(point.position - x, n), cosine, spacing);
     if (by_surface == 0) return;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <ssphh/core/for_this_cpu.h>
+
 #include "surface_entry.h"
 #include "surface_shares.h"
 
@@ -44,19 +46,22 @@ void SurfaceSamples::judge(const rays::SurfacePoint& point, float spacing) {
   const float *nx = numbers_[3].data(), *ny = numbers_[4].data(), *nz = numbers_[5].data();
   const float* __restrict front = numbers_[6].data(), * __restrict back = numbers_[7].data();
   std::int32_t* const verdicts = verdicts_.data();
-  for (std::size_t i = 0, count = size(); i < count; ++i) {
-    const float dx = p.x - x[i], dy = p.y - y[i], dz = p.z - z[i];
-    const float distance2 = dx * dx + dy * dy + dz * dz;
-    const float cosine = nx[i] * n.x + ny[i] * n.y + nz[i] * n.z;
-    const float off_plane = std::abs(dx * nx[i] + dy * ny[i] + dz * nz[i]);
-    const float share = share_by_distance(distance2, spacing), counted = cosine < 0 ? back[i] : front[i];
-    std::int32_t verdict = most_outweighed * share <= counted ? outweighed : asked;
-    verdict = share > 0 ? verdict : out_of_reach;
-    verdict = std::abs(cosine) >= least_cosine ? verdict : out_of_reach;
-    // A shading normal may lean toward the point
-    verdict = off_plane <= 0.75f * spacing + 0.3f * std::sqrt(distance2) ? verdict : out_of_reach;
-    verdicts[i] = verdict;
-  }
+  for_this_cpu([&]() SSPHH_IN_LOOP {
+    for (std::size_t i = 0, count = size(); i < count; ++i) {
+      const float dx = p.x - x[i], dy = p.y - y[i], dz = p.z - z[i];
+      const float distance2 = dx * dx + dy * dy + dz * dz;
+      const float cosine = nx[i] * n.x + ny[i] * n.y + nz[i] * n.z;
+      const float off_plane = std::abs(dx * nx[i] + dy * ny[i] + dz * nz[i]);
+      const float of_front = front[i], of_back = back[i];  // both: a loop with branches stays scalar
+      const float share = share_by_distance(distance2, spacing), counted = cosine < 0 ? of_back : of_front;
+      std::int32_t verdict = most_outweighed * share <= counted ? outweighed : asked;
+      verdict = share > 0 ? verdict : out_of_reach;
+      verdict = std::abs(cosine) >= least_cosine ? verdict : out_of_reach;
+      // A shading normal may lean toward the point
+      verdict = off_plane <= 0.75f * spacing + 0.3f * std::sqrt(distance2) ? verdict : out_of_reach;
+      verdicts[i] = verdict;
+    }
+  });
 }
 
 void SurfaceSamples::weigh(const rays::SurfacePoint& point, float spacing, int cover) {
@@ -64,15 +69,17 @@ void SurfaceSamples::weigh(const rays::SurfacePoint& point, float spacing, int c
   const float *x = numbers_[0].data(), *y = numbers_[1].data(), *z = numbers_[2].data();
   const float *nx = numbers_[3].data(), *ny = numbers_[4].data(), *nz = numbers_[5].data();
   float* const weights = weights_.data();
-  for (std::size_t i = 0, count = size(); i < count; ++i) {
-    const float dx = p.x - x[i], dy = p.y - y[i], dz = p.z - z[i];
-    const float distance2 = dx * dx + dy * dy + dz * dz;
-    const float cosine = nx[i] * n.x + ny[i] * n.y + nz[i] * n.z;
-    const float off_plane = dx * nx[i] + dy * ny[i] + dz * nz[i];
-    weights[i] = share_by_distance(distance2, spacing) *
-                 share_by_surface(std::sqrt(distance2), off_plane, std::abs(cosine), spacing) *
-                 cover_factor(cover, distance2, spacing);
-  }
+  for_this_cpu([&]() SSPHH_IN_LOOP {
+    for (std::size_t i = 0, count = size(); i < count; ++i) {
+      const float dx = p.x - x[i], dy = p.y - y[i], dz = p.z - z[i];
+      const float distance2 = dx * dx + dy * dy + dz * dz;
+      const float cosine = nx[i] * n.x + ny[i] * n.y + nz[i] * n.z;
+      const float off_plane = dx * nx[i] + dy * ny[i] + dz * nz[i];
+      weights[i] = share_by_distance(distance2, spacing) *
+                   share_by_surface(std::sqrt(distance2), off_plane, std::abs(cosine), spacing) *
+                   cover_factor(cover, distance2, spacing);
+    }
+  });
 }
 
 }  // namespace ssphh::probes

@@ -51,8 +51,13 @@ AlbedoTable::AlbedoTable(bool phong) {
 }
 
 const AlbedoTable& albedo_table(bool phong) {
-  static const AlbedoTable ggx_table(false), phong_table(true);
-  return phong ? phong_table : ggx_table;
+  // Each at its own first use: few scenes have both models
+  if (phong) {
+    static const AlbedoTable phong_table(true);
+    return phong_table;
+  }
+  static const AlbedoTable ggx_table(false);
+  return ggx_table;
 }
 
 }  // namespace ssphh::shading
