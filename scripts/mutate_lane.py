@@ -16,7 +16,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORK = ROOT / "build/mutate"
 # Beside test_MODULE: what needs more of the house than the module to be tested.
 OWN_TESTS = {**{module: [f"test_{module}", "test_render"] for module in ("probes", "place", "transport", "bake", "study")},
-             "methods": ["test_methods", "test_render", "test_pictures"],  # which draw their shaders
+             "methods": ["test_methods", "test_pipeline", "test_render", "test_pictures"],  # drawings and shaders of all of them
              "realtime": ["test_realtime", "test_pictures"], "ssphh": ["test_cli"], "viewer": ["test_viewer", "test_view"]}
 OTHER_TESTS = r"^(MdpProbe|example\.)"  # of ctest, beside the GoogleTest programs
 SLOW = 0.3  # seconds: tests above come after all others

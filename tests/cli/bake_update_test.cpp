@@ -164,8 +164,15 @@ TEST_F(BakeUpdate, LightByTransportIsFoundAnewInPlace) {
     EXPECT_EQ(update["operator"], op);
     EXPECT_EQ(update["update"]["changed"][0]["changes"][0], "surface") << op;
     EXPECT_EQ(bytes(new_), bytes(full_)) << op;
+    const probes::ProbeSet before = probes::read_probe_file(old_), now = probes::read_probe_file(new_);
+    json::Value differ = json::Value::array();
+    for (std::size_t i = 0; i < before.probes.size(); ++i)
+      if (now.probes[i].groups != before.probes[i].groups) differ.push_back(i);
+    EXPECT_GT(differ.size(), 0u) << op;
+    EXPECT_EQ(update["update"]["probes"], differ) << op;
     EXPECT_THAT(test::text_here({"bake", blue, "--update", old_, "-o", new_}),
-                HasSubstr("all light was found anew"));
+                HasSubstr(fmt::format("all light was found anew: that of {} of 5 probes has changed",
+                                      differ.size())));
   }
 }
 

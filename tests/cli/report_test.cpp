@@ -68,6 +68,8 @@ TEST(Report, RunsAPlanOnceAndAgainOnlyWhatChanged) {
   EXPECT_GT(cell(report, "ssphh")["values"]["bake.file_bytes"]["mean"].number(), 100);
   EXPECT_THAT(cell(report, "ssphh")["steps"][1]["command"].string(),
               HasSubstr("render builtin:two-rooms --time 1"));
+  EXPECT_THAT(report["provenance"]["created"].string(),
+              testing::MatchesRegex("20[0-9][0-9]-[01][0-9]-[0-3][0-9] [0-2][0-9]:[0-5][0-9] UTC"));
   EXPECT_EQ(report["scenes"][0]["hash"], run_json({"scene", "info", "builtin:two-rooms"})["hash"]);
   const std::string page = slurp(out + "/report.html");
   EXPECT_EQ(page.substr(0, 2), "\xff\xfe");  // UTF-16

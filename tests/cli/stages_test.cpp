@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include "gl_context.h"
 #include "here.h"
 #include "progress_recorder.h"
 #include "temp_dir.h"
@@ -73,6 +74,17 @@ TEST(Stages, OfWhatMoves) {
       stages({"respond", "builtin:two-rooms", "--method", "direct", "--frames", "3", "--points", "4",
               "--truth-spp", "2", "--event", "lamp.scale=0:1"}),
       ElementsAre("surface points: 4 points", "irradiance: 8 paths", testing::_, "responding: 3 frames"));
+}
+
+using StagesOfGl = test::WithGl;
+
+TEST_F(StagesOfGl, AreTheirFrames) {
+  const test::TempDir dir;
+  const std::vector<std::string> tiny = {"builtin:box", "--width", "8", "--height", "6", "--frames", "2"};
+  EXPECT_THAT(stages(test::joined({"bench-frame"}, test::joined(tiny, {"--warm-up", "1"}))),
+              ElementsAre("frames: 3 frames"));
+  EXPECT_THAT(stages(test::joined({"turntable"}, test::joined(tiny, {"-o", dir / "turn"}))),
+              ElementsAre("turntable: 2 frames"));
 }
 
 }  // namespace

@@ -122,6 +122,30 @@ TEST_F(List, SelectsAndShowsWhatIsSelected) {
   expect_drawn("outliner", drawn_listing());
 }
 
+TEST_F(List, EveryEntrySelectsWhatItNames) {
+  const Edits& edits = app().document.edits();
+  const auto click_all = [&](Kind kind, std::size_t count, const auto& name_of_entry) {
+    ASSERT_GT(count, 1u);
+    app().selection = {kind, static_cast<int>(count) - 1};  // unfolds its part
+    for (std::size_t i = 0; i < count; ++i) {
+      app().message.clear();
+      rest();
+      const std::vector<DrawnThing> all = all_things();
+      // Below an object of that name
+      click_text(name_of_entry(i),
+                 static_cast<int>(std::ranges::count(all, name_of_entry(i), &DrawnThing::text)) - 1);
+      EXPECT_EQ(app().selection, (Selection{kind, static_cast<int>(i)})) << name_of_entry(i);
+    }
+  };
+  click_all(Kind::light, app().document.scene->lights.size(),
+            [&](std::size_t i) { return app().document.scene->lights[i].name; });
+  click_all(Kind::sphl, edits.sphls.size(), [&](std::size_t i) { return edits.sphls[i].name; });
+  click_all(Kind::material, edits.materials.size(), [&](std::size_t i) {
+    const std::string& name = edits.materials[i].name;
+    return name.empty() ? fmt::format("material {}", i) : name;
+  });
+}
+
 TEST_F(List, FindsNames) {
   click_widget("find");
   window_->typed = "WEST";

@@ -55,6 +55,20 @@ Corners random_triangle(std::uint64_t index, float size) {
   return corners;
 }
 
+TEST(VoxelGrid, HoldsTheSceneAVoxelWithinItsBorderInAsFewBricksAsDo) {
+  scene::Bounds bounds;
+  bounds.add(vec3(1, 2, 3)), bounds.add(vec3(5, 3.8f, 4));
+  const VoxelGrid grid = make_grid(bounds, 32);
+  // 30 voxels along the longest side, 13.5 and 7.5 along the others, and one more on each side
+  EXPECT_FLOAT_EQ(grid.voxel, 4.0f / 30);
+  EXPECT_EQ(grid.size, (Cell{32, 16, 12}));
+  for (int axis = 0; axis < 3; ++axis) {
+    const float whole = grid.voxel * static_cast<float>(grid.size[axis]);
+    EXPECT_NEAR(grid.origin[axis] + 0.5f * whole, bounds.center()[axis], 1e-5f) << axis;
+    EXPECT_GE(bounds.min[axis] - grid.origin[axis], 0.999f * grid.voxel) << axis;
+  }
+}
+
 TEST(VctVoxelize, EveryVoxelThatATriangleMeetsAndNoOther) {
   constexpr int size = 12;
   const VoxelGrid grid = unit_grid(size);

@@ -165,6 +165,28 @@ TEST(LightTree, ChildrenHoldWhatTheirParentSays) {
   EXPECT_NEAR(strong, 384, 5 * std::sqrt(512 * 0.75 * 0.25));
 }
 
+TEST(LightTree, IsSplitAcrossItsLongestEdgeInSpaceAndThenInDirection) {
+  // Two heaps far apart, in each of which half of the lights face one way and half the other
+  for (int apart = 0; apart < 3; ++apart) {
+    for (int turned = 0; turned < 3; ++turned) {
+      std::vector<Vpl> lights;
+      for (int i = 0; i < 32; ++i) {
+        vec3 position = 0.01f * vec3(i % 3, i % 5, i % 7), normal(0);
+        position[apart] += i % 2 == 0 ? 0.0f : 8.0f;
+        normal[turned] = i / 2 % 2 == 0 ? 1.0f : -1.0f;
+        lights.push_back({position, normal, vec3(1), 0});
+      }
+      const std::vector<LightNode> tree = build_light_tree(lights);
+      for (const int heap : {tree.back().left, tree.back().right}) {
+        const scene::Bounds& bounds = tree[heap].cluster.bounds;
+        EXPECT_LT(bounds.max[apart] - bounds.min[apart], 1) << "apart along axis " << apart;
+        for (const int half : {tree[heap].left, tree[heap].right})
+          EXPECT_LT(tree[half].cluster.spread, 0.1f) << "apart along " << apart << ", facing " << turned;
+      }
+    }
+  }
+}
+
 TEST(LightTree, AClustersConeHoldsTheNormalsOfItsLights) {
   const std::vector<Vpl> lights{{vec3(0), {0, 1, 0}, vec3(1), 0},
                                 {vec3(1, 0, 0), {0, 0.6f, 0.8f}, vec3(2), 0}};
