@@ -104,16 +104,21 @@ TEST_F(FarmBakes, ThatAreStoppedLeaveNoJobBehind) {
   EXPECT_TRUE(farm_.comes_to(false));
 }
 
-TEST_F(FarmBakes, GoOnHereWhereTheBrokerIsLost) {
+TEST_F(FarmBakes, WaitWhereTheBrokerIsLostEndAScriptAndGoOnHere) {
   ASSERT_TRUE(turns_until([&] { return app().farm->figures().has_value(); }));
-  app().start_gen(false);
+  ScriptPlayer player(parse_script("gen\nsettle", "script"));
+  for (int i = 0; i < 3; ++i) player.next(app());
   EXPECT_TRUE(farm_.comes_to(true));
+  EXPECT_NO_THROW(player.next(app())) << "there it is still waited for";
   farm_.broker.reset();
   ASSERT_TRUE(turns_until([&] { return app().message_is_error; }));
   EXPECT_EQ(app().message, "The farm's broker at " + farm_.options.broker.endpoint +
                                " does not answer. The bake waits for it and goes on when it answers; \"Bake "
                                "here\" in the panel Farm has it done by this machine.");
   EXPECT_TRUE(app().baking());
+  EXPECT_EQ(test::message_of([&] { player.next(app()); }),
+            "script: line 2: the bake waits for " + farm_.options.broker.endpoint +
+                ", whose broker does not answer (start it again, or leave out --broker)");
   open("Farm");
   EXPECT_TRUE(shows("It does not answer"));
   EXPECT_FALSE(shows("queued")) << "who knows";
@@ -161,19 +166,6 @@ TEST_F(OwnFarmBakes, EndAScriptWithWhatHasBecomeOfTheFarm) {
   for (int i = 0; i < 3; ++i) player.next(app());
   failure_ = "no worker is left: local worker 0 has ended (exit code 42)";
   EXPECT_EQ(test::message_of([&] { player.next(app()); }), "script: line 2: " + failure_);
-}
-
-TEST_F(FarmBakes, EndAScriptThatWaitsForThemWhereTheBrokerIsLost) {
-  ASSERT_TRUE(turns_until([&] { return app().farm->figures().has_value(); }));
-  ScriptPlayer player(parse_script("gen\nsettle", "script"));
-  for (int i = 0; i < 3; ++i) player.next(app());
-  EXPECT_TRUE(farm_.comes_to(true));
-  EXPECT_NO_THROW(player.next(app())) << "there it is still waited for";
-  farm_.broker.reset();
-  ASSERT_TRUE(turns_until([&] { return app().farm->lost(); }));
-  EXPECT_EQ(test::message_of([&] { player.next(app()); }),
-            "script: line 2: the bake waits for " + farm_.options.broker.endpoint +
-                ", whose broker does not answer (start it again, or leave out --broker)");
 }
 
 TEST_F(FarmBakes, StandInThePanelWithTheWorkersThatDoThem) {

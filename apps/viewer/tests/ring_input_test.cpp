@@ -37,8 +37,8 @@ class RingInput : public PanelStage {
   std::pair<vec2, RingUnderMouse> find(int index) {
     const Rect2& r = app().viewport;
     const vec2 middle = pixel(*app().aim_origin());
-    for (float y = -300; y < 300; y += 3) {
-      for (float x = -300; x < 300; x += 3) {
+    for (float y = -180; y < 180; y += 3) {
+      for (float x = -180; x < 180; x += 3) {
         const vec2 at = glm::floor(middle + vec2(x, y));  // as ImGui has the mouse
         if (!r.contains(at.x, at.y) || axis_under_mouse(app(), at.x, at.y) >= 0) continue;
         if (aim_under_mouse(app(), at.x, at.y)) continue;
