@@ -102,7 +102,11 @@ for (const time of times) {
 }
 await page.keyboard.press('r');
 await page.setViewportSize({ width: 960, height: 540 });  // wide enough for all controls
+const unfolded = () => page.getAttribute('#fold', 'aria-expanded');
+const atFirst = await unfolded();  // on a small screen they are away
 await page.keyboard.press('h');
+expect(await unfolded() !== atFirst, 'H takes no controls away and brings none');
+if (await unfolded() === 'false') await page.keyboard.press('h');
 await page.evaluate(() => document.activeElement?.blur());
 await settle(page);
 await page.screenshot({ path: `${out}-page.png` });
