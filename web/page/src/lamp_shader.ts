@@ -2,7 +2,7 @@ import { faceSize } from './shadows';
 
 const taps = 32, blockerTaps = 16;
 
-/** GLSL: `vec3 ofLamps(vec3 x, vec3 n)` [W/m²], what lamps that are dragged send to a place, and the uniforms that it takes. */
+/** GLSL: `vec3 ofLamp(int i, vec3 x, vec3 n)` [W/m²], what a lamp that is dragged sends to a place, and the uniforms that it takes. */
 export const lampShader = (lamps: number) => `
 uniform highp sampler2D moved;
 uniform highp sampler2D shadows;
@@ -62,22 +62,20 @@ float lampIrradiance(float cosine, float d, float radius) {
   return max(0.0, (cosine * acos(y) - x * z) * part + atan(z / x));
 }
 
-vec3 ofLamps(vec3 x, vec3 n) {
-  vec3 sum = vec3(0.0);
-  for (int i = 0; i < ${lamps}; ++i) {
-    if (lampPower[i].rgb == vec3(0.0)) continue;
-    vec3 from = x - lampAt[i].xyz;
-    float d = length(from), radius = lampCone[i].w > 0.0 ? 0.0 : lampAt[i].w, e = lampIrradiance(-dot(from, n) / d, d, radius);
-    if (lampCone[i].w > 0.0) {
-      float ramp = clamp(dot(from, lampCone[i].xyz) / d * lampCone[i].w + lampAt[i].w, 0.0, 1.0);
-      e *= ramp * ramp;
-    }
-    if (lampPower[i].w > 0.0) {
-      float r = d / lampPower[i].w;
-      e *= clamp(1.0 - r * r * r * r, 0.0, 1.0);
-    }
-    if (e > 0.0) sum += e * lampShare(i, from, n, radius) * lampPower[i].rgb;
+float lampRadius(int i) { return lampCone[i].w > 0.0 ? 0.0 : lampAt[i].w; }
+
+vec3 ofLamp(int i, vec3 x, vec3 n) {
+  if (lampPower[i].rgb == vec3(0.0)) return vec3(0.0);
+  vec3 from = x - lampAt[i].xyz;
+  float d = length(from), radius = lampRadius(i), e = lampIrradiance(-dot(from, n) / d, d, radius);
+  if (lampCone[i].w > 0.0) {
+    float ramp = clamp(dot(from, lampCone[i].xyz) / d * lampCone[i].w + lampAt[i].w, 0.0, 1.0);
+    e *= ramp * ramp;
   }
-  return sum;
+  if (lampPower[i].w > 0.0) {
+    float r = d / lampPower[i].w;
+    e *= clamp(1.0 - r * r * r * r, 0.0, 1.0);
+  }
+  return e > 0.0 ? e * lampShare(i, from, n, radius) * lampPower[i].rgb : vec3(0.0);
 }
 `;

@@ -254,6 +254,7 @@ class Page {
     element('exposure-text').textContent = `${Number(exposure.value).toFixed(1)} EV`;
     this.fit();
     this.light.lamps?.look(this.renderer, this.world.scene, Number(time.value), this.world.balls.values());
+    this.world.mirrors.look(this.renderer, this.world.scene);
     this.renderer.toneMapping = this.manifest.tone_curve === 'filmic' ? CustomToneMapping : LinearToneMapping;
     this.renderer.toneMappingExposure = 2 ** Number(exposure.value);
     this.renderer.render(this.world.scene, this.camera);
@@ -277,7 +278,8 @@ async function start(): Promise<void> {
   const atlas = await readAtlas(manifest, share => say(`Light ${Math.round(100 * share)} %`));
   const light = new Light(manifest, atlas, await Lamps.read(manifest));
   say('Scene');
-  const world = await World.load(manifest, light);
+  const half = context.getExtension('EXT_color_buffer_float') ?? context.getExtension('EXT_color_buffer_half_float');
+  const world = await World.load(manifest, light, half !== null);
   say('');
   new Page(manifest, renderer, light, world);
 }

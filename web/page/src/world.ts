@@ -5,6 +5,7 @@ import {
 import { GLTFLoader, type GLTF } from 'three/addons/loaders/GLTFLoader.js';
 import type { Light } from './light';
 import { lit } from './material';
+import { Mirrors, tellDistance } from './mirrors';
 import { Failure, type Manifest } from './manifest';
 
 /** A lamp that is seen: its colour as in the file, and what it is multiplied with. */
@@ -30,10 +31,11 @@ export class World {
   private readonly emitters: Emitter[] = [];
   /** Lamps that are balls, by light group. */
   readonly balls = new Map<string, Mesh>();
+  readonly mirrors: Mirrors;
   private readonly mixer: AnimationMixer;
   private skyScale: Color | undefined;
 
-  private constructor(gltf: GLTF, private readonly manifest: Manifest, private readonly light: Light) {
+  private constructor(gltf: GLTF, private readonly manifest: Manifest, private readonly light: Light, mirroring: boolean) {
     this.scene.add(gltf.scene);
     this.mixer = new AnimationMixer(gltf.scene);
     for (const clip of gltf.animations) {
@@ -45,6 +47,9 @@ export class World {
     const objects: Object3D[] = [];
     gltf.scene.traverse(object => objects.push(object));
     const known = new Map<string, Material>();
+    this.scene.updateMatrixWorld(true);
+    const surfaces = objects.filter((object): object is Mesh => object instanceof Mesh && object.geometry.hasAttribute('uv1'));
+    this.mirrors = new Mirrors(mirroring ? surfaces : []);
     for (const object of objects) {
       if ('isLight' in object) this.replaceLamp(object);
       if (object instanceof Mesh) this.dress(object, known);
@@ -52,11 +57,12 @@ export class World {
     this.show(manifest.time);
   }
 
-  static async load(manifest: Manifest, light: Light): Promise<World> {
+  /** `mirroring`: whether the graphics card draws into pictures of half floats. */
+  static async load(manifest: Manifest, light: Light, mirroring: boolean): Promise<World> {
     const gltf = await new GLTFLoader().loadAsync(manifest.scene).catch((error: unknown) => {
       throw new Failure(`${manifest.scene} cannot be read: ${error}`);
     });
-    const world = new World(gltf, manifest, light);
+    const world = new World(gltf, manifest, light, mirroring);
     await world.addSky(gltf);
     return world;
   }
@@ -65,6 +71,7 @@ export class World {
   show(time: number): void {
     this.mixer.setTime(time);
     this.light.update(time);
+    this.mirrors.stale = true;
     for (const { color, file, scale } of this.emitters) color.copy(file).multiply(scale);
     for (const lamp of this.light.lamps?.lamps ?? []) {
       const ball = this.balls.get(lamp.data.group);
@@ -81,12 +88,12 @@ export class World {
     for (const texture of [material.map, material.normalMap, material.roughnessMap, material.metalnessMap])
       if (texture) texture.anisotropy = 16;  // as much of it as there is
     const glows = material.emissive.getHex() !== 0 || material.emissiveMap !== null, group = glows ? groupOf(mesh) : undefined;
-    const inAtlas = mesh.geometry.hasAttribute('uv1'), key = `${material.uuid} ${inAtlas} ${group}`;
+    const inAtlas = mesh.geometry.hasAttribute('uv1'), mirror = this.mirrors.of(mesh), key = `${material.uuid} ${inAtlas} ${group} ${mirror?.mirror.value.uuid}`;
     if (inAtlas) mesh.geometry.setAttribute('atlasAt', mesh.geometry.getAttribute('uv1'));
     if (inAtlas && this.light.lamps) mesh.geometry.setAttribute('movedAt', this.light.lamps.place(mesh.geometry));
     let own = known.get(key) as MeshStandardMaterial | undefined;
     if (!own) {
-      own = lit(material, mesh.geometry, this.light);
+      own = lit(material, mesh.geometry, this.light, this.mirrors, mirror);
       known.set(key, own);
       this.glow(own.emissive, group);
     }
@@ -107,6 +114,7 @@ export class World {
     const { color, intensity } = object as unknown as { color: Color; intensity: number };
     const radiance = ssphh.radiance ?? intensity / (Math.PI * ssphh.radius ** 2);
     const ball = new Mesh(new SphereGeometry(ssphh.radius, 32, 16), new MeshBasicMaterial({ color: color.clone().multiplyScalar(radiance) }));
+    ball.material.onBeforeCompile = shader => tellDistance(shader, this.mirrors.taking);
     object.getWorldPosition(ball.position);
     this.scene.attach(ball);
     object.parent.attach(ball);
