@@ -2,6 +2,7 @@
 // are there is asked.
 
 #include <fstream>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -172,6 +173,20 @@ TEST(Texts, OfMeasure) {
   std::string wanted = pattern(text);
   for (std::size_t at; (at = wanted.find(" \\*")) != std::string::npos;) wanted.replace(at, 3, " *");
   EXPECT_THAT(text_here(command), MatchesRegex(wanted));
+}
+
+TEST(Texts, LargeErrorsOfMeasureStandApart) {
+  // Most of what stands on a dark plain gets no light, and ambient light is the same everywhere.
+  const std::string text = text_here(
+      {"measure", "builtin:random?seed=113", "--method", "ambient", "--points", "32", "--truth-spp", "32"});
+  const std::size_t at = text.find("\nambient ");
+  ASSERT_NE(at, std::string::npos) << text;
+  std::istringstream row(text.substr(at, text.find('\n', at + 1) - at));
+  std::vector<std::string> words;
+  for (std::string word; row >> word;) words.push_back(word);
+  ASSERT_EQ(words.size(), 15u) << text;  // name, ratios, error, 95 %, relMSE, colour, leak, unseen, time
+  EXPECT_GT(words[4].size(), 6u);        // too wide for its column
+  EXPECT_EQ(words[5], "%");
 }
 
 TEST(Texts, OfRespond) {

@@ -214,7 +214,7 @@ json::Value light_json(const MeasuredLight& light) {
 /// The columns of an error: ratios, then what is worst of the channels.
 std::string error_columns(const study::LookupError& error) {
   const study::RelativeError worst = study::worst_channel(error);
-  return fmt::format("{}{:>7.1f} %{:>7.1f} %{:>10.4f}{:>7.2f} %", ratio_columns(error),
+  return fmt::format("{} {:>6.1f} % {:>6.1f} % {:>9.4f} {:>6.2f} %", ratio_columns(error),
                      100 * worst.mean_error, 100 * worst.p95_relative, worst.relmse,
                      100 * error.chromaticity.mean_error);
 }
@@ -294,7 +294,7 @@ std::string to_text(const MeasureResult& result, const MeasureOptions&) {
       result.points.size(), result.truth.spp, result.truth.dark, result.truth.mean, "light", "weights",
       "ratio R", "G", "B", "error", "95 %", "relMSE", "colour", "leak", "unseen", "lookup");
   for (const MeasuredLight& light : result.lights) {
-    text += fmt::format("\n{:<24}{:<11}{}{:>7.2f} %{}{:>6.3g} us", light.name,
+    text += fmt::format("\n{:<24}{:<11}{} {:>6.2f} %{}{:>6.3g} us", light.name,
                         light.weights ? name_of(*light.weights) : "", error_columns(light.error),
                         100 * light.leak_ratio, unseen_column(light.unseen), light.lookup_us);
     if (light.regions.size() < 2) continue;

@@ -43,7 +43,7 @@ json::Value to_json(const study::LookupError& error) {
 
 std::string ratio_columns(const study::LookupError& error) {
   std::string text;
-  for (const RelativeError& channel : error.channels) text += fmt::format("{:>7.3f}", channel.ratio);
+  for (const RelativeError& channel : error.channels) text += fmt::format(" {:>6.3f}", channel.ratio);
   return text;
 }
 

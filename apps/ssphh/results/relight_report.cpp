@@ -150,7 +150,7 @@ std::string relight_text(const RelightRun& run) {
     for (const FrameError& e : run.errors) {
       const study::RelativeError worst = study::worst_channel(e.error);
       text +=
-          fmt::format("\n{:>5}{:>9.2f}  {}{:>11.3f}{:>9.3f}{:>9.3f}{:>9.3f}{:>10.4f}{:>9.3f}", e.frame,
+          fmt::format("\n{:>5}{:>9.2f}  {} {:>10.3f} {:>8.3f} {:>8.3f} {:>8.3f} {:>9.4f} {:>8.3f}", e.frame,
                       e.frame / run.fps, ratio_columns(e.error), worst.mean_relative, worst.median_relative,
                       worst.p95_relative, worst.noise, worst.relmse, e.error.chromaticity.mean_error);
     }
