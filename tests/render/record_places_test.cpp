@@ -15,56 +15,12 @@
 #include <ssphh/transport/fitted_weights.h>
 #include <ssphh/transport/surface_gather.h>
 
-#include "transport_fixtures.h"
+#include "solved_scene.h"
 
 namespace ssphh::test {
 namespace {
 
-using transport::Irradiance4;
 using transport::SurfaceGather;
-
-/// A scene with its surfels and the light that they solve.
-struct SolvedScene {
-  explicit SolvedScene(scene::Scene scene_in, float surfel_size = 0)
-      : scene(std::move(scene_in)), source(scene), session(source, places_of(scene), params(surfel_size)) {
-    session.update();
-    lit = session.patch_irradiance();
-    reflected = session.surfel_irradiance();
-  }
-  static transport::RelightParams params(float surfel_size) {
-    transport::RelightParams params;
-    params.transport = small_network();
-    if (surfel_size > 0) params.transport.surfel_size = surfel_size;
-    return params;
-  }
-  const transport::TransportNetwork& network() const { return session.network(); }
-  std::unique_ptr<SurfaceGather> where_needed(int most, int rays) const {
-    return gather_where_needed(network(), {most, rays}, std::array{0.0f}, [&](float) {
-      return transport::PosedIrradiance{{}, lit, reflected};
-    });
-  }
-  /// At each of some places, how far lookups between the gather's points are from `truth`.
-  std::vector<double> errors_between(const SurfaceGather& gather, std::span<const rays::SurfacePoint> some,
-                                     std::span<const probes::RecordLight> truth) const {
-    std::vector<probes::RecordLight> light;
-    gather.light(lit, light);
-    const rays::PosedWorld world(source, 0);
-    const probes::SurfaceInterpolation known(
-        gather.points(), [&](const vec3& a, const vec3& b) { return world.visible(a, b); });
-    std::vector<double> errors;
-    for (std::size_t i = 0; i < some.size(); ++i) {
-      vec3 found(0);
-      known.irradiance(some[i], light, found);
-      errors.push_back(double(glm::distance(found, truth[i][3])));
-    }
-    return errors;
-  }
-
-  scene::Scene scene;
-  trace::TransportScene source;
-  LitSession session;
-  std::vector<Irradiance4> lit, reflected;
-};
 
 TEST(RecordPlaces, AreAsManyAsAskedForAndKnowNoLessThanOnesSpreadEvenly) {
   const SolvedScene gallery(scene::make_builtin("gallery1"), 0.16f);
@@ -147,74 +103,6 @@ TEST(RecordPlaces, AreDenseWhereSurfelsGotWhatPointsDoNotGive) {
   const auto surfels = std::ranges::count_if(all, in_patch);
   EXPECT_LT(points_of(0), surfels / 4);
   EXPECT_GT(points_of(1), surfels * 3 / 4);
-}
-
-TEST(RecordPlaces, AreEverywhereThatASurfelWouldSeeNone) {
-  const SolvedScene gallery(scene::make_builtin("gallery1"));
-  const std::vector<rays::SurfacePoint> all = transport::surfel_points(gallery.network());
-  const rays::PosedWorld world(gallery.source, 0);
-  const auto unlit = [&](const std::vector<rays::SurfacePoint>& records) {
-    const probes::SurfaceInterpolation known(
-        records, [&](const vec3& a, const vec3& b) { return world.visible(a, b); });
-    return std::ranges::count_if(all, [&](const rays::SurfacePoint& p) {
-      probes::SurfaceShares shares;
-      return known.at(p, shares).empty();
-    });
-  };
-  constexpr int most = 150;
-  const auto gather = gallery.where_needed(most, 32);
-  EXPECT_LE(gather->points().size(), 2u * most);
-  const auto spread = unlit(transport::spread_points(all, most));
-  ASSERT_GT(spread, static_cast<long>(all.size() / 20)) << "so few see all: nothing is tested";
-  EXPECT_LT(unlit(gather->points()), spread / 2);
-}
-
-TEST(RecordPlaces, AreNearMostPatches) {
-  // A point at the border of the next one's reach is told by that alone, however little it weighs.
-  const SolvedScene gallery(scene::make_builtin("gallery1"));
-  const auto gather = gallery.where_needed(150, 32);
-  const rays::PosedWorld world(gallery.source, 0);
-  const probes::SurfaceInterpolation known(gather->points(),
-                                           [&](const vec3& a, const vec3& b) { return world.visible(a, b); });
-  const auto from_afar = [&](const rays::SurfacePoint& p) {
-    probes::SurfaceShares storage;
-    return std::ranges::none_of(known.at(p, storage), [&](const probes::SurfaceShare& share) {
-      return glm::distance(known.position(share.point), p.position) < 2.3f * known.spacing(share.point);
-    });
-  };
-  const std::vector<rays::SurfacePoint> patches = transport::surfel_points(gallery.network(), 4);
-  // 106 of 13,006 patches; 303 where any point within reach will do.
-  EXPECT_LT(std::ranges::count_if(patches, from_afar), 200);
-}
-
-TEST(RecordPlaces, AreDenserThanSurfelsBelowABall) {
-  // A room with a lamp, and a ball that touches its floor: half as far from there as a surfel is wide, the
-  // light is a fraction of what it is a surfel farther out.
-  constexpr float radius = 0.4f, size = 0.25f;
-  scene::Scene scene;
-  scene::Mesh room = scene::make_box({-1.5f, 0, -1.5f}, {1.5f, 2.2f, 1.5f});
-  for (uvec3& t : room.triangles) std::swap(t.y, t.z);
-  for (vec3& n : room.normals) n = -n;
-  add_body(scene, "room", std::move(room), {0.7f, 0.5f, 0.3f});
-  scene::Mesh ball = scene::make_sphere(radius);
-  for (vec3& x : ball.positions) x.y += radius;
-  add_body(scene, "ball", std::move(ball), {0.3f, 0.5f, 0.7f});
-  add_body(scene, "lamp", scene::make_box({-0.3f, 2.1f, -0.3f}, {0.3f, 2.15f, 0.3f}), vec3(0.6f), vec3(3));
-  add_sphl(scene, "probe", {0.8f, 1.2f, 0.7f});
-  scene::validate(scene);
-  const SolvedScene lit(std::move(scene), size);
-  std::vector<rays::SurfacePoint> ring;
-  for (int i = 0; i < 16; ++i) {
-    const float angle = 2 * pi * static_cast<float>(i) / 16;
-    ring.push_back({0.5f * size * vec3(std::cos(angle), 0, std::sin(angle)), {0, 1, 0}});
-  }
-  std::vector<probes::RecordLight> truth;
-  SurfaceGather(lit.network(), ring, 1024).light(lit.lit, truth);
-  const auto records = lit.where_needed(4000, 256);
-  const std::vector<double> errors = lit.errors_between(*records, ring, truth);
-  double error = 0, light = 0;
-  for (std::size_t i = 0; i < ring.size(); ++i) error += errors[i], light += double(glm::length(truth[i][3]));
-  EXPECT_LT(error, 0.4 * light) << "0.24; 0.80 where none stand but at surfels";
 }
 
 TEST(RecordPlaces, AreWhereLightAsksForThemInEveryPose) {
