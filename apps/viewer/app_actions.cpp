@@ -82,6 +82,10 @@ void App::save_scene(const std::string& file) {
 
 void App::save_probes(const std::string& file) {
   if (light.empty()) throw Error(file, "there are no probes to save", "place some, or open a probe file");
+  if (light.is_glance())
+    throw Error(file, "the probes hold light at a glance",
+                job.running() ? "their whole light is on its way"
+                              : "“Light them live” in the panel Probes finds the whole of it");
   if (light.live()) {
     const scene::Scene scene = document.edited();
     probes::ProbeSet set = light.live_light()->bake(scene);

@@ -42,6 +42,7 @@ class ProbeLight {
 
   bool empty() const { return !set_; }
   bool live() const { return live_ != nullptr; }
+  bool is_glance() const { return live_ && live_->is_glance(); }
   const probes::ProbeSet& set() const { return *set_; }
   /// "live", or the file's name.
   const std::string& origin() const { return origin_; }

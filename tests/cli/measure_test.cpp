@@ -171,8 +171,8 @@ TEST_F(Rooms, MeasureIsThatOfTheLibrary) {
     leaks += one["leak_ratio"].number();
     const json::Value &ratio = one["ratio"], &worst = one["worst"];
     EXPECT_THAT(text,
-                HasSubstr(fmt::format("\n{:<24}{:<11}{:>7.3f}{:>7.3f}{:>7.3f}{:>7.1f} %{:>7.1f} "
-                                      "%{:>10.4f}{:>7.2f} %{:>7.2f} %{:>7.1f} %",
+                HasSubstr(fmt::format("\n{:<24} {:<10} {:>6.3f} {:>6.3f} {:>6.3f} {:>6.1f} % {:>6.1f} "
+                                      "% {:>9.4f} {:>6.2f} % {:>6.2f} % {:>6.1f} %",
                                       file_, one["weights"].string(), ratio[0].number(), ratio[1].number(),
                                       ratio[2].number(), 100 * worst["mean_error"].number(),
                                       100 * worst["p95_relative"].number(), worst["relmse"].number(),

@@ -290,11 +290,11 @@ json::Value to_json(const MeasureResult& result, const MeasureOptions&) {
 std::string to_text(const MeasureResult& result, const MeasureOptions&) {
   std::string text = fmt::format(
       "{} points of {} paths, {} of them dark; mean {:.5g} W/m2\n"
-      "{:<24}{:<11}{:>7}{:>7}{:>7}{:>9}{:>9}{:>10}{:>9}{:>9}{:>9}{:>9}",
+      "{:<24} {:<10}{:>7}{:>7}{:>7}{:>9}{:>9}{:>10}{:>9}{:>9}{:>9}{:>9}",
       result.points.size(), result.truth.spp, result.truth.dark, result.truth.mean, "light", "weights",
       "ratio R", "G", "B", "error", "95 %", "relMSE", "colour", "leak", "unseen", "lookup");
   for (const MeasuredLight& light : result.lights) {
-    text += fmt::format("\n{:<24}{:<11}{} {:>6.2f} %{}{:>6.3g} us", light.name,
+    text += fmt::format("\n{:<24} {:<10}{} {:>6.2f} %{}{:>6.3g} us", light.name,
                         light.weights ? name_of(*light.weights) : "", error_columns(light.error),
                         100 * light.leak_ratio, unseen_column(light.unseen), light.lookup_us);
     if (light.regions.size() < 2) continue;

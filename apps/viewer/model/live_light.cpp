@@ -22,6 +22,7 @@ std::vector<scene::ProbePlace> find_places(const scene::Scene& scene, const rays
 LiveLight::LiveLight(std::shared_ptr<const scene::Scene> scene, const LiveLightParams& params, float time,
                      const Control& control)
     : scene_(std::move(scene)),
+      glance_(params.glance),
       source_(params.geometry ? params.geometry : trace::geometry_of(scene_), *scene_) {
   std::vector<scene::ProbePlace> places = find_places(*scene_, source_, params, time, control);
   transport::RelightParams relight = params.relight;
@@ -58,6 +59,7 @@ LiveLightParams at_a_glance(LiveLightParams params) {
   transport.directions = std::min(transport.directions, 384);
   transport.samples = std::min(transport.samples, 4);
   params.relight.records.points = 0;
+  params.glance = true;
   return params;
 }
 

@@ -16,6 +16,7 @@ struct LiveLightParams {
   std::vector<scene::ProbePlace> places;  ///< empty: place_probes() finds them
   float spacing = 0;                      ///< of the places to be found [m]; 0: some 100 to 200 probes
   transport::RelightParams relight;       ///< with records: whoever looks at surfaces sees what probes miss
+  bool glance = false;                    ///< as at_a_glance() makes it
 
   LiveLightParams() { relight.records.points = transport::usual_records; }
 };
@@ -30,6 +31,7 @@ class LiveLight {
 
   const transport::RelightSession& session() const { return *session_; }
   const scene::Scene& scene() const { return *scene_; }
+  bool is_glance() const { return glance_; }  ///< not the whole light that was asked for
   const trace::TransportScene& source() const { return source_; }
 
   /// A set of these places that holds the reflected light as it is now, groups merged into one.
@@ -41,6 +43,7 @@ class LiveLight {
 
  private:
   std::shared_ptr<const scene::Scene> scene_;
+  bool glance_;
   trace::TransportScene source_;
   std::optional<transport::RelightSession> session_;
 };

@@ -43,6 +43,10 @@ void draw_source(App& app) {
     note(app.document.edits().sphls.empty()
              ? "No probes: the picture has direct light only."
              : fmt::format("{} SPHLs that hold no light yet.", app.document.edits().sphls.size()));
+  } else if (app.light.is_glance()) {
+    note(fmt::format("{} probes at a glance: {}", app.light.set().probes.size(),
+                     app.job.running() ? "their whole light is on its way."
+                                       : "their whole light was cancelled, or cannot be found."));
   } else if (app.light.live()) {
     note(fmt::format(
         "{} probes, live: they follow lamps and doors by light transport between {} surface "
@@ -60,7 +64,8 @@ void draw_source(App& app) {
                    spacing > 0 ? length_format(lengths.decimals) : "automatic");
   tip("of placed probes; 0: some 100 to 200 of them");
   if (wide_button("Place probes")) attempt(app, [&] { app.place_probes(spacing); });
-  if (!app.document.edits().sphls.empty() && !app.light.live() && wide_button("Light them live"))
+  if (!app.document.edits().sphls.empty() && (!app.light.live() || app.light.is_glance()) &&
+      wide_button("Light them live"))
     attempt(app, [&] { app.light_scene_probes(); });
 }
 

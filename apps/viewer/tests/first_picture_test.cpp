@@ -1,8 +1,11 @@
 // What is seen of a scene before all of its light is there.
 
+#include <filesystem>
+#include <memory>
 #include <utility>
 #include <vector>
 
+#include "error_message.h"
 #include "gl_stage.h"
 
 namespace ssphh::viewer {
@@ -54,6 +57,32 @@ TEST_F(LargeFirstPicture, OfASceneAndOfItsLightAreSmallAndThenWhole) {
   EXPECT_EQ(lit.front(), software() ? 240 : 600);
   EXPECT_EQ(lit.back(), 600);
   for (const int width : dark) EXPECT_EQ(width, software() ? 240 : 600) << "while light is on its way";
+}
+
+class Glance : public GlStage {
+ protected:
+  void prepare() override {
+    options_.probes = "off";
+    options_.transport = {.directions = 32, .surfel_size = 0.5f, .link_rays = 8};
+  }
+  void ready() override { app().open("builtin:two-rooms"); }
+};
+
+TEST_F(Glance, IsNotSavedAsTheWholeLight) {
+  LiveLightParams params;
+  params.relight.transport = options_.transport;
+  params.places = app().document.places();
+  app().light.take(std::make_shared<LiveLight>(app().document.scene, at_a_glance(params), 0.0f));
+  turn();
+  EXPECT_EQ(test::message_of([&] { app().save_probes(dir_ / "probes.sphl"); }),
+            (dir_ / "probes.sphl").string() +
+                ": the probes hold light at a glance (“Light them live” in the panel Probes finds the whole "
+                "of it)");
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "probes.sphl"));
+  app().light_scene_probes();
+  ASSERT_TRUE(turn_until([&] { return !app().job.running() && !app().light.is_glance(); }, [&] { turn(); }));
+  app().save_probes(dir_ / "probes.sphl");
+  EXPECT_TRUE(std::filesystem::exists(dir_ / "probes.sphl"));
 }
 
 }  // namespace
