@@ -50,8 +50,8 @@ class RecordPlaces {
   bool is_patch(std::size_t place) const { return place >= coarse_; }
 
   /// Of each cube, `coarser` levels above its points' own, in which none of the chosen stands, the middle
-  /// one. Patches count in cubes smaller than those levels that hold nothing else.
-  std::vector<std::size_t> free(int coarser) const {
+  /// one. With `patches` one of those in each cube smaller than those levels that holds nothing else.
+  std::vector<std::size_t> free(int coarser, bool patches) const {
     std::set<PointCell> taken;
     for (const std::size_t i : chosen_) taken.insert(grid_.cell(all_[i], levels_[i] + coarser));
     std::vector<std::size_t> result;
@@ -67,7 +67,7 @@ class RecordPlaces {
       }
     };
     take_middles(0, coarse_);
-    if (coarser < 0) take_middles(coarse_, all_.size());
+    if (patches && coarser < 0) take_middles(coarse_, all_.size());
     std::ranges::sort(result);
     return result;
   }
@@ -278,10 +278,12 @@ std::unique_ptr<SurfaceGather> gather_where_needed(const TransportNetwork& netwo
   };
   int first = 0;
   std::vector<std::size_t> wanted;
-  if (!places.all().empty()) wanted = places.free(first);
-  while (wanted.size() > first_points) wanted = places.free(++first);
+  if (!places.all().empty()) wanted = places.free(first, false);
+  while (wanted.size() > first_points) wanted = places.free(++first, false);
   auto gather = std::make_unique<SurfaceGather>(gather_at(places.choose(wanted)));
   std::vector<probes::RecordLight> light;
+  // Rays of those at a door's rims would be asked again in every frame
+  const bool with_patches = times.size() == 1;
   for (std::size_t pose = 0; pose < times.size(); ++pose) {
     if (pose > 0) {
       now = light_in(times[pose]);
@@ -302,7 +304,7 @@ std::unique_ptr<SurfaceGather> gather_where_needed(const TransportNetwork& netwo
         for (std::size_t i = 0; i < doubt.size(); ++i) doubt[i] = std::max(doubt[i], of_all[i]);
       }
       const SurfelDoubts by_surfels(places, now.reflected, known, reflected);
-      wanted = doubtful(places.free(coarser), room, control, [&](std::size_t place) {
+      wanted = doubtful(places.free(coarser, with_patches), room, control, [&](std::size_t place) {
         const float by_points =
             doubt_at(places.all()[place], known, doubt) / (places.is_patch(place) ? patch_doubt : 1);
         return by_points >= 1 ? by_points : by_surfels.at(place);
