@@ -152,7 +152,7 @@ TEST(Texts, OfMeasure) {
   EXPECT_EQ(all["geometry_builds"], 1);
   std::string text = fmt::format(
       "16 points of 4 paths, {} of them dark; mean {:.5g} W/m2\n"
-      "light                   weights    ratio R      G      B    error     95 %    relMSE   colour     "
+      "light                    weights   ratio R      G      B    error     95 %    relMSE   colour     "
       "leak   unseen   lookup",
       print(all["dark_points"]), number(all, "mean_truth"));
   for (const json::Value& one : all["results"].elements()) {
