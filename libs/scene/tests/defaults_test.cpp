@@ -3,32 +3,21 @@
 
 #include <gtest/gtest.h>
 
+#include <ssphh/scene/builtin.h>
 #include <ssphh/scene/lighting_state.h>
+#include <ssphh/scene/primitives.h>
 #include <ssphh/scene/probe_place.h>
+#include <ssphh/scene/query.h>
 #include <ssphh/scene/scene.h>
 #include <ssphh/scene/sun_position.h>
+#include <ssphh/scene/sun_sky.h>
 
 namespace ssphh::scene {
 namespace {
 
-TEST(Defaults, OfThings) {
-  const Material material;
-  EXPECT_EQ(material.base_color, vec3(0.8f));
-  EXPECT_EQ(material.alpha, 1);
-  EXPECT_EQ(material.metallic, 0);
-  EXPECT_EQ(material.diffuse_roughness, 0);
-  EXPECT_EQ(material.specular, 1);
-  EXPECT_EQ(material.ior, 1.5f);
-  EXPECT_EQ(material.transmission, 0);
-  EXPECT_EQ(material.thickness, 0);
-  EXPECT_EQ(material.attenuation_color, vec3(1));
-  EXPECT_EQ(material.attenuation_distance, 0);
-  EXPECT_EQ(material.emission, vec3(0));
-  EXPECT_FALSE(material.unlit);
-  EXPECT_FALSE(material.double_sided);
-  EXPECT_EQ(material.alpha_mode, AlphaMode::opaque);
-  EXPECT_EQ(material.alpha_cutoff, 0.5f);
-  EXPECT_EQ(material.normal_scale, 1);
+TEST(Defaults, OfWhatStandsInAScene) {
+  const Texture texture;
+  EXPECT_EQ(texture.width + texture.height, 0);
   const TextureUse use;
   EXPECT_EQ(use.texture, -1);
   EXPECT_EQ(use.uv_set, 0);
@@ -38,47 +27,67 @@ TEST(Defaults, OfThings) {
   EXPECT_EQ(use.wrap_u, Wrap::repeat);
   EXPECT_EQ(use.wrap_v, Wrap::repeat);
   EXPECT_FALSE(use.nearest);
+  const Material m;
+  EXPECT_EQ(m.base_color, vec3(0.8f));
+  EXPECT_EQ(m.emission, vec3(0));
+  EXPECT_EQ(m.alpha, 1);
+  EXPECT_EQ(m.metallic, 0);
+  EXPECT_EQ(m.diffuse_roughness, 0);
+  EXPECT_EQ(m.specular_roughness, 1);
+  EXPECT_EQ(m.specular, 1);
+  EXPECT_EQ(m.ior, 1.5f);
+  EXPECT_EQ(m.transmission, 0);
+  EXPECT_EQ(m.thickness, 0);
+  EXPECT_EQ(m.attenuation_color, vec3(1));
+  EXPECT_EQ(m.attenuation_distance, 0);
+  EXPECT_EQ(m.alpha_cutoff, 0.5f);
+  EXPECT_EQ(m.normal_scale, 1);
+  EXPECT_EQ(m.alpha_mode, AlphaMode::opaque);
+  EXPECT_FALSE(m.unlit || m.double_sided || m.emissive());
   EXPECT_EQ(Mesh().material, -1);
-  EXPECT_EQ(Node().parent, -1);
-  EXPECT_FALSE(Node().movable);
-  EXPECT_EQ(Transform().translation, vec3(0));
-  EXPECT_EQ(Transform().scale, vec3(1));
-  EXPECT_EQ(Instance().mesh, -1);
-  EXPECT_EQ(Instance().node, -1);
-  EXPECT_EQ(Instance().material, -1);
+  const Transform transform;
+  EXPECT_EQ(transform.matrix(), mat4(1));
+  const Node node;
+  EXPECT_EQ(node.parent, -1);
+  EXPECT_FALSE(node.movable || node.matrix);
+  const Instance instance;
+  EXPECT_EQ(instance.mesh, -1);
+  EXPECT_EQ(instance.node, -1);
+  EXPECT_EQ(instance.material, -1);
   const Camera camera;
   EXPECT_EQ(camera.node, -1);
-  EXPECT_FALSE(camera.orthographic);
   EXPECT_EQ(camera.yfov, 0.8f);
   EXPECT_EQ(camera.yheight, 2);
+  EXPECT_FALSE(camera.orthographic || camera.aspect);
+  const Light light;
+  EXPECT_EQ(light.node, -1);
+  EXPECT_EQ(light.type, LightType::point);
+  EXPECT_EQ(light.color, vec3(1));
+  EXPECT_EQ(light.intensity, 1);
+  EXPECT_EQ(light.radius + light.angular_radius + light.inner_cone + light.range, 0);
+  EXPECT_EQ(light.outer_cone, pi / 4);
+  const Environment environment;
+  EXPECT_EQ(environment.name, "environment");
+  EXPECT_EQ(environment.color, vec3(1));
+  EXPECT_EQ(environment.rotation, 0);
+  const Sphl sphl;
+  EXPECT_EQ(sphl.node, -1);
+  EXPECT_EQ(sphl.radius, 0.1f);
+  EXPECT_TRUE(sphl.enabled);
+  const AnimationChannel channel;
+  EXPECT_EQ(channel.node, -1);
+  EXPECT_EQ(channel.path, AnimationPath::translation);
+  EXPECT_EQ(channel.interpolation, Interpolation::linear);
 }
 
-TEST(Defaults, OfLight) {
-  const Light lamp;
-  EXPECT_EQ(lamp.node, -1);
-  EXPECT_EQ(lamp.type, LightType::point);
-  EXPECT_EQ(lamp.color, vec3(1));
-  EXPECT_EQ(lamp.intensity, 1);
-  EXPECT_EQ(lamp.radius, 0);
-  EXPECT_EQ(lamp.size, vec2(0));
-  EXPECT_EQ(lamp.angular_radius, 0);
-  EXPECT_EQ(lamp.inner_cone, 0);
-  EXPECT_EQ(lamp.outer_cone, pi / 4);
-  EXPECT_EQ(lamp.range, 0);
-  EXPECT_EQ(Environment().color, vec3(1));
-  EXPECT_EQ(Environment().rotation, 0);
-  EXPECT_EQ(Sphl().node, -1);
-  EXPECT_EQ(Sphl().radius, 0.1f);
-  EXPECT_TRUE(Sphl().enabled);
-  EXPECT_EQ(ProbePlace().position, vec3(0));
-  EXPECT_EQ(ProbePlace().radius, 0.1f);
-  EXPECT_EQ(LightState().color, vec3(1));
-  EXPECT_EQ(LightState().intensity, 1);
-  EXPECT_EQ(LightingState().time, 0);
-  EXPECT_EQ(LightingState().environment_rotation, 0);
-}
-
-TEST(Defaults, OfSkies) {
+TEST(Defaults, OfLightsAndBounds) {
+  const LightState state;
+  EXPECT_EQ(state.world, mat4(1));
+  EXPECT_EQ(state.color, vec3(1));
+  EXPECT_EQ(state.intensity, 1);
+  const Bounds bounds;
+  EXPECT_TRUE(bounds.empty());
+  EXPECT_EQ(bounds.radius(), 0);
   const SunSkyParams sky;
   EXPECT_EQ(sky.elevation, pi / 4);
   EXPECT_EQ(sky.azimuth, pi / 6);
@@ -86,6 +95,30 @@ TEST(Defaults, OfSkies) {
   EXPECT_EQ(sky.ground_albedo, vec3(0.2f));
   EXPECT_TRUE(sky.sun);
   EXPECT_EQ(sky.width, 512);
+}
+
+// Triangles and the reach of bodies whose sizes nobody gave.
+TEST(Defaults, OfBodies) {
+  EXPECT_EQ(make_sphere(1).triangles.size(), 2u * 64 * 31);
+  EXPECT_EQ(make_torus(1, 0.1f).triangles.size(), 2u * 96 * 32);
+  EXPECT_EQ(make_cylinder(1, 1).triangles.size(), make_cylinder(1, 1, 48).triangles.size());
+  EXPECT_EQ(make_cone(1, 1).triangles.size(), make_cone(1, 1, 48).triangles.size());
+  EXPECT_EQ(make_column(1, 9).triangles.size(), make_column(1, 9, 48).triangles.size());
+  EXPECT_EQ(make_torus_knot(2, 3, 1, 0.3f, 0.1f).triangles.size(), 2u * 512 * 24);
+  EXPECT_EQ(make_spiral(1, 1, 2, 3, 0.1f).triangles.size(),
+            make_spiral(1, 1, 2, 3, 0.1f, 400, 20).triangles.size());
+}
+
+TEST(Defaults, OfLight) {
+  EXPECT_EQ(Light().size, vec2(0));
+  EXPECT_EQ(ProbePlace().position, vec3(0));
+  EXPECT_EQ(ProbePlace().radius, 0.1f);
+  EXPECT_EQ(LightingState().time, 0);
+  EXPECT_EQ(LightingState().environment_rotation, 0);
+}
+
+TEST(Defaults, OfSkies) {
+  const SunSkyParams sky;
   EXPECT_EQ(sky.model, SkyModel::preetham);
   EXPECT_FALSE(sky.time);
   const SunTime time;

@@ -15,43 +15,6 @@ namespace {
 
 using ssphh::test::message_of;
 
-TEST(ShadingDefaults, AreNamed) {
-  const BsdfParams bsdf;
-  EXPECT_EQ(bsdf.diffuse, vec3(0.8f));
-  EXPECT_EQ(bsdf.f0, vec3(0.04f));
-  EXPECT_EQ(bsdf.diffuse_roughness, 0);
-  EXPECT_EQ(bsdf.specular_roughness, 1);
-  const BsdfValue value;
-  EXPECT_EQ(value.value, vec3(0));
-  EXPECT_EQ(value.pdf, 0);
-  const Surface surface{};
-  EXPECT_EQ(surface.emission, vec3(0));
-  EXPECT_EQ(surface.alpha, 1);
-  EXPECT_FALSE(surface.unlit);
-  const SurfaceGeometry geometry;
-  EXPECT_EQ(geometry.position, vec3(0));
-  EXPECT_EQ(geometry.front, vec3(0));
-  EXPECT_EQ(geometry.normal, vec3(0));
-  EXPECT_EQ(geometry.uv[0], vec2(0));
-  EXPECT_EQ(geometry.uv[1], vec2(0));
-  const EmittedPhoton photon;
-  EXPECT_EQ(photon.normal, vec3(0));
-  const PointLight point{vec3(1), vec3(2)};
-  EXPECT_EQ(point.axis, vec3(0));
-  EXPECT_EQ(point.cone_scale, 0);
-  EXPECT_EQ(point.cone_offset, 1);
-  EXPECT_EQ(point.range, 0);
-  EXPECT_EQ(point.group, 0);
-  const SphereLight sphere{vec3(1), 1, vec3(2)};
-  EXPECT_EQ(sphere.group, 0);
-  EXPECT_EQ(DistantLights().irradiance(), 0);
-  EXPECT_EQ(DistantLights().count(), 0u);
-  EXPECT_EQ(MeshView::max_triangles, 32u);
-  const MeshView none(vec3(0), vec3(0, 1, 0), vec3(1), 0);
-  EXPECT_EQ(none.irradiance(), vec3(0));
-  EXPECT_FALSE(none.sample(vec2(0.5f)));
-}
-
 TEST(ShadingDefaults, KindsOfEmitters) {
   for (const auto& [kind, delta, distant] : {std::tuple{EmitterKind::point, true, false},
                                              {EmitterKind::sphere, false, false},
