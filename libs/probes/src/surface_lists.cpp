@@ -25,9 +25,6 @@ namespace {
 /// house.
 constexpr float most_cells_apart = 8;
 
-/// Nor do points so much coarser than the finest around tell that a place under a house is not within it.
-constexpr float most_coarser = 8;
-
 /// Samples of a part of a cell on surfaces that face one axis: one of each sheet of a few, a picture's front
 /// and back and the wall behind it.
 struct Layers {
@@ -244,12 +241,12 @@ class Preparation {
     }
     const rays::SurfacePoint& point = out_.points[candidate.point];
     work.samples.weigh(point, spacings_[candidate.point], cover_[candidate.point]);
-    const bool tells = spacings_[candidate.point] <= most_coarser * work.finest;
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t sample = candidate.asked[i];
       const bool known = asked == count || i % step == begin;  // else it may lie in a thin wall
       const bool is_seen = candidate.seen.empty() || candidate.seen[i] == Seen::yes;
-      work.samples.count_in(sample, work.samples.side(sample, point.normal), is_seen, tells && known);
+      const std::size_t side = work.samples.side(sample, point.normal);
+      work.samples.count_in(sample, side, spacings_[candidate.point], is_seen, known);
     }
   }
 

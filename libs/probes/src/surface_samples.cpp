@@ -22,8 +22,8 @@ constexpr float most_outweighed = 4096;
 void SurfaceSamples::clear() {
   for (std::vector<float>& numbers : numbers_) numbers.clear();
   for (std::size_t side = 0; side < 2; ++side) {
-    alive_[side].clear(), narrow_[side].clear(), asked_[side].clear();
-    headroom_[side].clear();
+    narrow_[side].clear(), asked_[side].clear(), headroom_[side].clear();
+    finest_[side].clear(), finest_seen_[side].clear();
   }
   parts_.clear(), verdicts_.clear(), weights_.clear();
 }
@@ -32,8 +32,8 @@ void SurfaceSamples::add(const vec3& position, const vec3& normal, const vec3& l
   const float all[]{position.x, position.y, position.z, normal.x, normal.y, normal.z, 0, 0};
   for (std::size_t k = 0; k < numbers_.size(); ++k) numbers_[k].push_back(all[k]);
   for (std::size_t side = 0; side < 2; ++side) {
-    alive_[side].push_back(0), narrow_[side].push_back(0), asked_[side].push_back(0);
-    headroom_[side].push_back(-1);
+    narrow_[side].push_back(0), asked_[side].push_back(0), headroom_[side].push_back(-1);
+    finest_[side].push_back(far), finest_seen_[side].push_back(far);
   }
   const auto part = [&](int cut) { return static_cast<std::uint8_t>(surface_part(local, cut)); };
   parts_.push_back({part(0), part(1), part(2), part(3)});

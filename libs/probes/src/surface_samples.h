@@ -1,8 +1,10 @@
 #pragma once
 /// Places on the surfaces within a cell, and which of them a point may light.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -36,20 +38,23 @@ class SurfaceSamples {
   Verdict verdict(std::size_t i) const { return static_cast<Verdict>(verdicts_[i]); }
   /// Finds what a point counts at the places.
   void weigh(const rays::SurfacePoint& point, float spacing, int cover);
-  /// Counts in the point that was weighed last: whether it is seen from there, and tells whether that is
-  /// `alive`.
-  void count_in(std::size_t i, std::size_t side, bool seen, bool alive) {
+  /// Counts in the point that was weighed last, whether it is seen from there or, unless that is `known`,
+  /// seems to be.
+  void count_in(std::size_t i, std::size_t side, float spacing, bool seen, bool known) {
     asked_[side][i] += weights_[i];
+    if (weights_[i] > 0) finest_[side][i] = std::min(finest_[side][i], spacing);
     if (!seen) return;
-    alive_[side][i] |= alive;
+    if (known) finest_seen_[side][i] = std::min(finest_seen_[side][i], spacing);
     numbers_[6 + side][i] += weights_[i];
   }
 
-  /// Whether points that tell and face this side's way are seen from there, and count for something beside
-  /// those that are not. What sees none lies within a body, or in its very edge, and has no say.
+  /// Whether points that face this side's way are seen from there, not much coarser ones than the finest that
+  /// may light it, and count for something beside those that are not. What sees none lies within a body, or
+  /// in its very edge, and has no say: far points of a plain would be seen from under a house.
   bool alive(std::size_t i, std::size_t side) const {
-    constexpr float least = 0.005f;
-    return alive_[side][i] != 0 && numbers_[6 + side][i] >= least * asked_[side][i];
+    constexpr float least = 0.005f, most_coarser = 8;
+    return finest_seen_[side][i] < far && finest_seen_[side][i] <= most_coarser * finest_[side][i] &&
+           numbers_[6 + side][i] >= least * asked_[side][i];
   }
 
   /// What `find` tells of a side, asked once.
@@ -68,11 +73,13 @@ class SurfaceSamples {
   }
 
  private:
+  static constexpr float far = std::numeric_limits<float>::infinity();
   /// Position, normal, and the weight of what is counted on either side.
   std::array<std::vector<float>, 8> numbers_;
-  std::vector<std::array<std::uint8_t, 4>> parts_;           ///< of each cut
-  std::array<std::vector<std::uint8_t>, 2> alive_, narrow_;  ///< of each side; narrow_: 0 where nobody asked
-  std::array<std::vector<float>, 2> headroom_;               ///< of each side; under 0 where nobody asked
+  std::vector<std::array<std::uint8_t, 4>> parts_;          ///< of each cut
+  std::array<std::vector<std::uint8_t>, 2> narrow_;         ///< of each side; 0 where nobody asked
+  std::array<std::vector<float>, 2> headroom_;              ///< of each side; under 0 where nobody asked
+  std::array<std::vector<float>, 2> finest_, finest_seen_;  ///< spacings of each side's points [m]
   std::vector<std::int32_t> verdicts_;
   std::vector<float> weights_;
   std::array<std::vector<float>, 2> asked_;  ///< weight on either side of all, seen or not

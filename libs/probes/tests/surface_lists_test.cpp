@@ -1,5 +1,6 @@
 /// Which points light which parts of a surface, under a body that almost touches it and in folds.
 
+#include <algorithm>
 #include <bit>
 
 #include <fmt/format.h>
@@ -157,6 +158,25 @@ TEST(SurfaceLists, FarPointsOfAPlainAreNotSeenFromUnderAHouse) {
       EXPECT_GE(lighting(surfaces, {x, 0, 0.1f}).size(), 2u) << x << " beside a wall at " << roof.x;
     for (const vec3& p : lighting(surfaces, {0, 0, -0.7f}, {0, 1, 0}, 2000))
       EXPECT_FALSE(p.x == 0 && p.z >= 300) << "behind the house, seen over its roof";
+  }
+}
+
+TEST(SurfaceLists, FinePointsBehindAWallSilenceNothingBeforeIt) {
+  // In a corner of the cell's far side, a centimetre apart: half a metre is far too coarse there, and only
+  // there.
+  constexpr float at = 0.15f;
+  const auto walled = [](const vec3& a, const vec3& b) { return (a.x < at) == (b.x < at); };
+  FittedPoints fitted = around_body();
+  for (int i = 0; i < 25; ++i)
+    fitted.points.push_back(
+        {{at + 0.01f * static_cast<float>(1 + i % 5), 0, 0.08f + 0.01f * static_cast<float>(i / 5)},
+         {0, 1, 0}});
+  fitted.weights.resize(fitted.points.size());
+  for (PointWeights& weights : fitted.weights) weights.add(0, 1);
+  const SurfaceLists surfaces = prepare_fitted(body_on_a_floor(), 0, fitted, walled).surfaces;
+  for (float x = -0.3f; x < at - 0.05f; x += 0.05f) {
+    const std::vector<vec3> places = lighting(surfaces, {x, 0, 0.1f});
+    EXPECT_GE(std::ranges::count_if(places, [](const vec3& p) { return p.x < at; }), 3) << x;
   }
 }
 
