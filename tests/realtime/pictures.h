@@ -132,6 +132,20 @@ inline probes::FittedSurfaces prepared(const scene::Scene& scene, const probes::
                                 [&](const vec3& a, const vec3& b) { return tracer.visible(a, b); });
 }
 
+/// A lookup as OpenGL takes it, which follows no mirrored ways.
+struct WithoutMirrors final : rays::IndirectLight {
+  explicit WithoutMirrors(const rays::IndirectLight& all) : light(all) {}
+  vec3 irradiance(const rays::SurfacePoint& at) const override { return light.irradiance(at); }
+  vec3 glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const override {
+    return light.glossy(at, r, roughness);
+  }
+  std::vector<std::string> direct_groups() const override { return light.direct_groups(); }
+  std::vector<std::string> mirrored_groups() const override { return light.mirrored_groups(); }
+  bool follows_mirrors() const override { return false; }
+
+  const rays::IndirectLight& light;
+};
+
 /// Direct light traced, indirect light looked up (none: max_depth 1).
 inline image::Image traced(const scene::Scene& scene, const rays::IndirectLight* indirect, PictureSize size,
                            int spp, std::uint64_t seed, const trace::PathTracer& tracer) {
@@ -141,7 +155,7 @@ inline image::Image traced(const scene::Scene& scene, const rays::IndirectLight*
   params.path = {indirect ? 2 : 1, 1, spp, seed};
   if (params.camera.camera.orthographic) params.projection = trace::Projection::orthographic;
   trace::RenderState state;
-  indirect ? tracer.render_with(*indirect, params, state) : tracer.render(params, state);
+  indirect ? tracer.render_with(WithoutMirrors(*indirect), params, state) : tracer.render(params, state);
   return trace::resolve(state.color, state.passes_done);
 }
 

@@ -99,6 +99,7 @@ class FormulaLight final : public rays::IndirectLight {
   vec3 glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const override {
     return (vec3(2, 1.5f, 1) + vec3(r.y, r.z, r.x) * (1 - 0.5f * roughness)) * (1 + 0.1f * at.position.x);
   }
+  bool follows_mirrors() const override { return false; }
 };
 
 TEST(TracedPixels, LookedUpLightIsReflectedByPlaceNormalAndRoughness) {

@@ -5,6 +5,22 @@
 #include "packed_probes.h"
 
 namespace ssphh::probes {
+namespace {
+
+/// The same sum of those above 0 alone: what a fit takes away from one probe's even light is another's narrow
+/// lobe, and leaves black.
+ProbeWeights without_negative(ProbeWeights weights) {
+  float sum = 0, positive = 0;
+  for (ProbeWeight& entry : weights.used()) {
+    sum += entry.weight;
+    entry.weight = std::max(entry.weight, 0.0f);
+    positive += entry.weight;
+  }
+  for (ProbeWeight& entry : weights.used()) entry.weight *= positive > sum ? sum / positive : 1;
+  return weights;
+}
+
+}  // namespace
 
 struct IrradianceLookup::Data {
   PackedProbes probes;
@@ -138,7 +154,7 @@ std::vector<std::string> IrradianceLookup::mirrored_groups() const {
 vec3 IrradianceLookup::glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const {
   PackedProbes::Basis basis;
   data_->probes.glossy_basis(r, roughness, basis);
-  return data_->blend(data_->weights->at(at),
+  return data_->blend(without_negative(data_->weights->at(at)),
                       [&](int probe) { return data_->probes.radiance(probe, basis.data()); });
 }
 

@@ -151,8 +151,12 @@ TEST(LookupFields, FittedWeightsAreLinearOnTheFloorInEveryColour) {
     const VariedLight expected =
         w[0] * light_at(places[0]) + w[1] * light_at(places[1]) + w[2] * light_at(places[2]);
     expect_near(lookup.irradiance(p), expected.irradiance(p.normal), pi * 0.03f);
+    const vec3 positive = glm::max(w, vec3(0)), one(1),
+               v = positive * glm::dot(w, one) / glm::dot(positive, one);
+    const VariedLight glossy =
+        v[0] * light_at(places[0]) + v[1] * light_at(places[1]) + v[2] * light_at(places[2]);
     expect_near(lookup.glossy(p, {0.6f, 0.8f, 0}, 0.4f),
-                expected.glossy({0.6f, 0.8f, 0}, sh::glossy_band_scales(0.4f)), 0.03f);
+                glossy.glossy({0.6f, 0.8f, 0}, sh::glossy_band_scales(0.4f)), 0.03f);
   }
 }
 

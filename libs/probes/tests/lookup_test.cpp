@@ -302,6 +302,26 @@ TEST(Lookup, LayersAreOwnNeighboursAndTheirSum) {
   EXPECT_NEAR(e(std::nullopt), 5, rounding);
 }
 
+TEST(IrradianceLookup, NarrowLobesTakeNothingAwayOfProbesThatCountNegative) {
+  struct Extrapolated final : LookupWeights {
+    ProbeWeights at(const rays::SurfacePoint&) const override {
+      ProbeWeights weights;
+      weights.add(0, 1.2f), weights.add(1, -0.5f), weights.add(2, 0.2f);
+      return weights;
+    }
+    std::size_t bytes() const override { return 0; }
+  };
+  const vec3 dim(1, 2, 0.5f), other(3, 1, 2);
+  const ProbeSet set = make_set({{{0, 0, 0}, linear(3, dim, vec3(0)), {}},
+                                 {{2, 0, 0}, linear(3, vec3(10), vec3(0)), {}},
+                                 {{4, 0, 0}, linear(3, other, vec3(0)), {}}});
+  const IrradianceLookup lookup(set, std::make_shared<const Extrapolated>());
+  const vec3 n(0, 1, 0);
+  expect_near(lookup.glossy({vec3(1), n}, n, 0.3f), 0.9f * (1.2f * dim + 0.2f * other) / 1.4f, rounding);
+  expect_near(lookup.irradiance({vec3(1), n}), glm::max(pi * (1.2f * dim - vec3(5) + 0.2f * other), vec3(0)),
+              rounding);
+}
+
 TEST(Lookup, AnEmptySetIsAnError) {
   const FakeSource source;
   EXPECT_THROW(make_lookup(LookupMethod::light, ProbeSet(), source), Error);

@@ -166,7 +166,7 @@ Found look_up(Surface s, vec3 mirror, float roughness, bool wanted) {
   Found found;
   found.count = bitCount(seen);
   found.irradiance = found.glossy = vec3(0);
-  float sum = 0, most = -1;
+  float sum = 0, glossy_sum = 0, most = -1;
   while (used != 0) {
     vec4 near = candidate(base + next_bit(used));
     int probe = int(near.w);
@@ -183,14 +183,15 @@ Found look_up(Surface s, vec3 mirror, float roughness, bool wanted) {
     weight = fits ? tent_of(d) : weight;
 #endif
     sum += weight;
+    glossy_sum += max(weight, 0.0);
     weight *= seen != 0 ? 1 : clamp(HIDDEN_SLOPE * cosine, 0.0, 1.0);
     found.irradiance += weight * irradiance_of(probe, e_place, s.moves);
 #ifdef FULL_BSDF
-    found.glossy += weight * radiance_of(probe, l_place);
+    found.glossy += max(weight, 0.0) * radiance_of(probe, l_place);  // a fit goes astray in narrow lobes
 #endif
   }
   found.irradiance = max(found.irradiance / sum, 0.0);
-  found.glossy = max(found.glossy / sum, 0.0);
+  found.glossy /= max(glossy_sum, 1e-30);
   return found;
 }
 #endif

@@ -77,6 +77,7 @@ struct PathVertex {
   vec3 normal{0};          ///< geometric, toward wo; zero at the camera
   float bsdf_pdf = 0;      ///< of the ray that leaves; 0: nothing else finds the light that it meets
   bool looked_up = false;  ///< a lookup has given its indirect light, and the direct light that it holds
+  bool followed = false;   ///< the ray is of its specular lobe alone, and finds what the lookup holds, too
   /// Then, of the ray that leaves: the specular lobe's share of what the surface reflects of its light.
   vec3 mirrored{0};
 };
@@ -156,7 +157,8 @@ inline bool choose_glass(shading::Surface& surface, const vec3& wo, const PathSa
 /// `Visitor` receives first_hit(surface, ray_origin, ray, hit), of the first surface that the path does not
 /// go straight through, and add(depth, group, value, emission), `emission` being the direction in which the
 /// light left its emitter; where the options ask for it, also look_up(throughput, surface, ray_origin, ray,
-/// hit). With `scattered_at` the ray is no camera's but leaves that vertex: its path begins at depth 1.
+/// hit, sampler), which returns the share of its specular light that it finds by paths of its own. With
+/// `scattered_at` the ray is no camera's but leaves that vertex: its path begins at depth 1.
 template <class Emitters, class Visitor>
 void trace_path(const PosedGeometry& scene, const Emitters& emitters, Ray ray, const PathSampler& sampler,
                 const PathOptions& options, RayTask& task, Visitor& visitor,
@@ -164,7 +166,8 @@ void trace_path(const PosedGeometry& scene, const Emitters& emitters, Ray ray, c
   PathLight light;
   PathVertex vertex = scattered_at ? *scattered_at : PathVertex{ray.origin};
   bool met_any = scattered_at != nullptr;
-  bool looks_up = options.looks_up && !scattered_at;  // the surface with the lookup is still to come
+  // The surface with the lookup is still to come
+  bool looks_up = options.looks_up && (!scattered_at || scattered_at->followed);
   int depth = scattered_at ? 1 : 0;
 
   for (int vertices = depth;; ++vertices) {
@@ -210,10 +213,11 @@ void trace_path(const PosedGeometry& scene, const Emitters& emitters, Ray ray, c
     if (!met_any) visitor.first_hit(surface, ray_origin, ray, hit);
     met_any = true;
     if (last || surface.unlit) return;
+    float followed = 0;
     if (looks_up) {
       looks_up = choose_glass(surface, -ray.direction, sampler, light);
-      if constexpr (requires { visitor.look_up(light.throughput, surface, ray_origin, ray, hit); }) {
-        if (!looks_up) visitor.look_up(light.throughput, surface, ray_origin, ray, hit);
+      if constexpr (requires { visitor.look_up(light.throughput, surface, ray_origin, ray, hit, sampler); }) {
+        if (!looks_up) followed = visitor.look_up(light.throughput, surface, ray_origin, ray, hit, sampler);
       }
     }
 
@@ -222,7 +226,7 @@ void trace_path(const PosedGeometry& scene, const Emitters& emitters, Ray ray, c
               .looked_up = options.looks_up && !looks_up};
     if constexpr (requires { emitters.mirrored(); }) {
       const bool mirrors = emitters.mirrored() && max_component(surface.bsdf.f0) > 0;
-      if (vertex.looked_up && mirrors) vertex.mirrored = vec3(1);
+      if (vertex.looked_up && mirrors) vertex.mirrored = vec3(1 - followed);
     }
     const vec3 beyond_surface = 2.0f * surface.position - ray_origin;  // where rays start that go through
     const Frame frame = Frame::around(surface.normal);
@@ -270,7 +274,7 @@ void trace_path(const PosedGeometry& scene, const Emitters& emitters, Ray ray, c
     if (sample->glass && !surface.glass.sheet)
       light.absorption = surface.glass.inside == (side > 0) ? surface.glass.absorption : vec3(0);
     vertex.bsdf_pdf = sample->pdf;
-    if (vertex.mirrored != vec3(0)) vertex.mirrored = specular_share(surface, wo, sample->wi);
+    if (vertex.mirrored != vec3(0)) vertex.mirrored *= specular_share(surface, wo, sample->wi);
     ray = {side > 0 ? ray_origin : beyond_surface, wi};
 
     // End paths by Russian roulette.

@@ -9,17 +9,20 @@
 namespace ssphh::trace {
 namespace {
 
+/// What a picture's paths ask.
+struct Asked {
+  const TracerData& data;
+  const SceneEmitters& emitters;
+  const CameraRays& camera;
+  const rays::IndirectLight* indirect;  ///< null: paths find all light themselves
+  int max_depth;
+};
+
 /// Sums over the samples of one pixel in one pass.
 class PixelSums {
  public:
-  PixelSums(const scene::Scene& scene, std::size_t groups, const CameraRays& camera,
-            const rays::IndirectLight* indirect_light, bool indirect_wanted, RayTask& task)
-      : scene_(scene),
-        groups_(groups),
-        camera_(camera),
-        indirect_light_(indirect_light),
-        indirect_wanted_(indirect_wanted),
-        task_(task) {}
+  PixelSums(const Asked& asked, RayTask& task)
+      : asked_(asked), groups_(asked.data.group_count()), task_(task) {}
 
   void clear() {
     std::ranges::fill(groups_, vec3(0));
@@ -42,21 +45,29 @@ class PixelSums {
     const float cos_wo = -glm::dot(surface.normal, ray.direction);
     albedo_ += surface.unlit ? glm::min(surface.emission, vec3(1)) : shading::surface_albedo(surface, cos_wo);
     normal_ += surface.normal;
-    depth_ += camera_.depth(ray, hit.distance);
+    depth_ += asked_.camera.depth(ray, hit.distance);
     hits_ += 1;
   }
 
-  void look_up(const vec3& throughput, const shading::Surface& surface, const vec3& ray_origin,
-               const Ray& ray, const Hit& hit) {
-    if (!indirect_light_ || !indirect_wanted_ || surface.unlit) return;
-    const vec3 value =
-        throughput * reflected_indirect(*indirect_light_, surface, ray_origin, -ray.direction, moves(hit));
+  /// `mirrors`: what the path has followed to this surface. What its own specular lobe reflects is followed
+  /// where it is narrow.
+  float look_up(const vec3& throughput, const shading::Surface& surface, const vec3& ray_origin,
+                const Ray& ray, const Hit& hit, const PathSampler& sampler, int mirrors = 0) {
+    constexpr int most_mirrors = 4;
+    if (!asked_.indirect || asked_.max_depth < mirrors + 2 || surface.unlit) return 0;
+    const bool follows = mirrors < most_mirrors && asked_.indirect->follows_mirrors();
+    const float followed = follows ? followed_share(surface) : 0;
+    const vec3 value = throughput * reflected_indirect(*asked_.indirect, surface, ray_origin, -ray.direction,
+                                                       moves(hit), followed);
     if (is_finite(value)) {
       looked_up_ += value;
       indirect_ += value;
     } else {
       ++task_.invalid;
     }
+    if (followed > 0)
+      follow_mirror(followed * throughput, surface, ray_origin, -ray.direction, sampler, mirrors + 1);
+    return followed;
   }
 
   /// Writes the means over `spp` samples into pixel (x, y) of a pass.
@@ -78,18 +89,46 @@ class PixelSums {
   }
 
  private:
-  bool moves(const Hit& hit) const {
-    const int node = scene_.instances[hit.instance].node;
-    return node >= 0 && scene_.nodes[node].movable;
+  /// Takes the light of a path that a mirror sends on.
+  struct Mirrored {
+    PixelSums& sums;
+    vec3 scale;
+    int mirrors;
+
+    void first_hit(const shading::Surface&, const vec3&, const Ray&, const Hit&) const {}
+    void add(int depth, int group, const vec3& value, const vec3& emission) const {
+      sums.add(depth, group, scale * value, emission);
+    }
+    float look_up(const vec3& throughput, const shading::Surface& surface, const vec3& ray_origin,
+                  const Ray& ray, const Hit& hit, const PathSampler& sampler) const {
+      return sums.look_up(scale * throughput, surface, ray_origin, ray, hit, sampler, mirrors);
+    }
+  };
+
+  void follow_mirror(const vec3& throughput, const shading::Surface& surface, const vec3& ray_origin,
+                     const vec3& wo, const PathSampler& before, int mirrors) {
+    const PathSampler sampler{hash_combine(before.seed, 0x3e1f0110), before.index};
+    const PathSampler::Vertex random = sampler.vertex(0);
+    const auto sent = sample_mirror(surface, wo, random.lobe, random.direction, random.roulette);
+    if (!sent) return;
+    const PathVertex vertex{.position = surface.position,
+                            .normal = surface.geometric_normal,
+                            .looked_up = true,
+                            .followed = true};
+    Mirrored visitor{*this, throughput * sent->weight, mirrors};
+    trace_path(asked_.data.geometry, asked_.emitters, {ray_origin, sent->direction}, sampler,
+               PathOptions{.max_depth = 2, .looks_up = true}, task_, visitor, &vertex);
   }
 
-  const scene::Scene& scene_;
+  bool moves(const Hit& hit) const {
+    const int node = asked_.data.scene.instances[hit.instance].node;
+    return node >= 0 && asked_.data.scene.nodes[node].movable;
+  }
+
+  const Asked& asked_;
   std::vector<vec3> groups_;
   vec3 direct_{0}, indirect_{0}, looked_up_{0}, albedo_{0}, normal_{0};
   float depth_ = 0, hits_ = 0;
-  const CameraRays& camera_;
-  const rays::IndirectLight* indirect_light_;
-  bool indirect_wanted_;
   RayTask& task_;
 };
 
@@ -152,8 +191,8 @@ void add_pass(RenderState& state, const RenderState& pass, bool groups_are_all) 
 }
 
 /// The lights of these groups alone; none: there are no groups.
-std::optional<shading::LightSet> mirrored_lights(const shading::LightSet& lights,
-                                                 const std::vector<std::string>& groups) {
+std::optional<shading::LightSet> lights_of(const shading::LightSet& lights,
+                                           const std::vector<std::string>& groups) {
   if (groups.empty()) return std::nullopt;
   std::vector<int> others;
   for (std::size_t g = 0; g < lights.groups().size(); ++g)
@@ -177,17 +216,19 @@ void run_passes(const TracerData& data, const rays::IndirectLight* indirect, con
   // With probes, paths carry direct light only.
   PathOptions options{params.path.max_depth};
   if (indirect) options.max_depth = std::min(options.max_depth, 1), options.looks_up = true;
-  const bool indirect_wanted = params.path.max_depth >= 2;
   // Whose direct light is looked up is sampled nowhere else.
   std::vector<int> looked_up;
-  if (indirect && indirect_wanted) looked_up = group_indices(data.lights.groups(), indirect->direct_groups());
-  std::optional<shading::LightSet> sampled, mirrored;
+  if (indirect && params.path.max_depth >= 2)
+    looked_up = group_indices(data.lights.groups(), indirect->direct_groups());
+  std::optional<shading::LightSet> sampled, mirrored, held;
   if (!looked_up.empty()) {
     sampled = data.lights.without(looked_up);
-    mirrored = mirrored_lights(data.lights, indirect->mirrored_groups());
+    mirrored = lights_of(data.lights, indirect->mirrored_groups());
+    held = lights_of(data.lights, indirect->direct_groups());
   }
-  const SceneEmitters emitters(data.lights, sampled ? *sampled : data.lights,
-                               mirrored ? &*mirrored : nullptr);
+  const SceneEmitters emitters(data.lights, sampled ? *sampled : data.lights, mirrored ? &*mirrored : nullptr,
+                               held ? &*held : nullptr);
+  const Asked asked{data, emitters, camera, indirect, params.path.max_depth};
   const Tile tile = tile_of(params);
   const auto width = static_cast<std::uint64_t>(tile.width), height = static_cast<std::uint64_t>(tile.height);
   const std::uint64_t row_paths = width * static_cast<std::uint64_t>(params.path.spp);
@@ -206,7 +247,7 @@ void run_passes(const TracerData& data, const rays::IndirectLight* indirect, con
       TaskScope scope(
           data, invalid,
           static_cast<std::uint64_t>(state.passes_done) * height + static_cast<std::uint64_t>(row));
-      PixelSums sums(data.scene, groups, camera, indirect, indirect_wanted, scope.task);
+      PixelSums sums(asked, scope.task);
       for (int x = tile.x; x < tile.x + tile.width; ++x) {
         sums.clear();
         PathSampler sampler{

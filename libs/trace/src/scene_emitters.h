@@ -9,12 +9,14 @@ namespace ssphh::trace {
 class SceneEmitters {
  public:
   /// `sampled`: those whose light comes straight to surfaces with a lookup. `mirrored`, if not null: those at
-  /// infinity that such surfaces mirror, too, but have from the lookup otherwise.
+  /// infinity that such surfaces mirror, too, but have from the lookup otherwise. `held`, if not null: all
+  /// that they have from it, which rays find that follow their specular lobe.
   SceneEmitters(const shading::LightSet& lights, const shading::LightSet& sampled,
-                const shading::LightSet* mirrored = nullptr)
+                const shading::LightSet* mirrored = nullptr, const shading::LightSet* held = nullptr)
       : lights_(lights),
         sampled_(sampled),
         mirrored_(mirrored),
+        held_(held),
         by_rays_(lights),
         sampled_by_rays_(sampled) {}
   explicit SceneEmitters(const shading::LightSet& lights) : SceneEmitters(lights, lights) {}
@@ -41,6 +43,7 @@ class SceneEmitters {
   template <class Visit>
   void surface(const PathVertex& vertex, const Ray& ray, const Hit& hit, const shading::Surface& surface,
                const Visit& visit) const {
+    if (vertex.followed && !held_) return;
     const shading::LightSet& lights = lights_at(vertex);
     const int group = lights.instance_group(hit.instance);
     if (group < 0) return;
@@ -55,6 +58,7 @@ class SceneEmitters {
   }
 
   bool found_by_rays(const PathVertex& vertex) const {
+    if (vertex.followed) return held_ != nullptr;
     return vertex.looked_up ? sampled_by_rays_.any() || vertex.mirrored != vec3(0) : by_rays_.any();
   }
   bool may_meet(const PathVertex& vertex, const Ray& ray) const {
@@ -65,12 +69,13 @@ class SceneEmitters {
 
  private:
   const shading::LightSet& lights_at(const PathVertex& vertex) const {
+    if (vertex.followed && held_) return *held_;
     return vertex.looked_up ? sampled_ : lights_;
   }
 
   const shading::LightSet& lights_;
   const shading::LightSet& sampled_;
-  const shading::LightSet* mirrored_ = nullptr;
+  const shading::LightSet *mirrored_ = nullptr, *held_ = nullptr;
   FoundByRays by_rays_, sampled_by_rays_;
 };
 

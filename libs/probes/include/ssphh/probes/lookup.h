@@ -71,6 +71,7 @@ class LightLookup final : public rays::IndirectLight {
   void swap_light(const ProbeSet& set);
   vec3 irradiance(const rays::SurfacePoint& at) const override;
   std::vector<std::string> direct_groups() const override;
+  bool follows_mirrors() const override { return false; }
   vec3 glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const override;
 
  private:

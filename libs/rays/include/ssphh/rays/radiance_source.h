@@ -123,6 +123,8 @@ class IndirectLight {
   virtual vec3 irradiance(const SurfacePoint& at) const = 0;
   /// Names of the light groups whose direct light is in what this gives: a picture leaves theirs out.
   virtual std::vector<std::string> direct_groups() const { return {}; }
+  /// Whether pictures show in mirrors what stands there, in this light, where they can; else glossy().
+  virtual bool follows_mirrors() const { return true; }
   /// Names of those direct_groups() whose environment is not in glossy(): mirrors show it itself.
   virtual std::vector<std::string> mirrored_groups() const { return {}; }
   /// Radiance [W sr⁻¹ m⁻²] for a glossy lobe around the unit direction r; `roughness` is perceptual, 0..1.
