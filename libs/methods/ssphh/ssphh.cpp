@@ -8,7 +8,7 @@
 #include <ssphh/scene/light_mode.h>
 #include <ssphh/scene/probe_place.h>
 #include <ssphh/transport/fitted_weights.h>
-#include <ssphh/transport/gather_light.h>
+#include <ssphh/transport/recorded_light.h>
 #include <ssphh/transport/session_sets.h>
 #include <ssphh/transport/surface_gather.h>
 
@@ -93,10 +93,12 @@ class Ssphh final : public Method {
     lookup_ = std::make_shared<const probes::IrradianceLookup>(transport::lookup_set(session_), weights_,
                                                                probes::LookupParams{}, records_);
     if (gathers_) gathered_.emplace(session_, gather_rays, lookup_);
+    if (records_) recorded_.emplace(session_, lookup_);
   }
 
   const rays::IndirectLight& light() const override {
     if (gathered_) return *gathered_;
+    if (recorded_) return *recorded_;
     return *lookup_;
   }
 
@@ -162,6 +164,7 @@ class Ssphh final : public Method {
   std::shared_ptr<const probes::IrradianceLookup> lookup_;
   bool gathers_ = false;
   std::optional<transport::GatherLight> gathered_;
+  std::optional<transport::RecordedLight> recorded_;
 };
 
 }  // namespace

@@ -132,8 +132,14 @@ void IrradianceLookup::swap_light(const ProbeSet& set) {
 }
 
 vec3 IrradianceLookup::irradiance(const rays::SurfacePoint& at) const {
-  if (vec3 found; data_->places && data_->places->irradiance(at, data_->light, found)) return found;
+  if (const std::optional<vec3> found = recorded_irradiance(at)) return *found;
   return irradiance(at, data_->weights->at(at));
+}
+
+std::optional<vec3> IrradianceLookup::recorded_irradiance(const rays::SurfacePoint& at) const {
+  vec3 found;
+  if (!data_->places || !data_->places->irradiance(at, data_->light, found)) return std::nullopt;
+  return found;
 }
 
 vec3 IrradianceLookup::irradiance(const rays::SurfacePoint& at, const ProbeWeights& weights) const {

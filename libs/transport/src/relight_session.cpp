@@ -202,6 +202,18 @@ vec3 RelightSession::mirrored(const rays::SurfacePoint& at) const {
   return sum;
 }
 
+vec3 RelightSession::kept_direct(const rays::SurfacePoint& at) const {
+  constexpr int samples = 64;
+  const Data& d = data_->settled();
+  vec3 sum(0);
+  if (!d.direct_light || !d.gather) return sum;
+  for (const int g : d.record_direct.groups()) {
+    const rays::IrradianceByNormal found = d.direct_light->irradiance_by_normal(g, at, samples);
+    sum += d.shown.group_scales[g] * glm::max(found * vec4(at.normal, 1), vec3(0));
+  }
+  return sum;
+}
+
 const std::vector<Irradiance4>& RelightSession::surfel_irradiance() const {
   return data_->light.indirect;
 }

@@ -4,6 +4,7 @@
 /// what each is worth.
 
 #include <memory>
+#include <optional>
 
 #include <ssphh/core/enum_names.h>
 #include <ssphh/core/held.h>
@@ -103,6 +104,8 @@ class IrradianceLookup final : public rays::IndirectLight {
   IrradianceLookup(const IrradianceLookup&);
   void swap_light(const ProbeSet& set);
   vec3 irradiance(const rays::SurfacePoint& at) const override;
+  /// Of the records; nothing where none lies near in sight, or the point moves.
+  std::optional<vec3> recorded_irradiance(const rays::SurfacePoint& at) const;
   /// Of the probes alone, by these weights in place of its own. Throws Error for one that names another
   /// probe.
   vec3 irradiance(const rays::SurfacePoint& at, const ProbeWeights& weights) const;

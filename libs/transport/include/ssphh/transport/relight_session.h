@@ -172,6 +172,8 @@ class RelightSession {
 
   /// Irradiance at a surface point by light of emitters that panes mirror, of the last update().
   vec3 mirrored(const rays::SurfacePoint& at) const;
+  /// Direct irradiance there of the groups of which records hold it, of the last update().
+  vec3 kept_direct(const rays::SurfacePoint& at) const;
 
   /// Indirect irradiance at each surfel; with bounce empty unless records are kept.
   const std::vector<Irradiance4>& surfel_irradiance() const;
