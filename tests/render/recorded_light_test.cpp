@@ -91,16 +91,17 @@ TEST(RecordedLight, HasTheDirectLightThatRecordsHold) {
     const float sky = pi * vec3(1, 2, 4)[c];
     EXPECT_NEAR(session.kept_direct(open)[c], sky, 0.05f * sky) << c;
   }
-  // What is gathered at the records' places is what they hold, with what the ground reflects
+  // To a lookup without records all is gathered: at their places what they hold, with what the ground
+  // reflects
   const auto lookup = std::make_shared<const probes::IrradianceLookup>(
       transport::lookup_set(session),
       probes::make_weights({&place[0].position, 1}, [](const vec3&, const vec3&) { return true; }));
-  const transport::GatherLight gathered(session, 256, lookup);
+  const transport::RecordedLight light(session, lookup);
   vec3 sum(0), of_records(0);
   const probes::ProbeSet set = transport::lookup_set(session);
   const probes::SurfaceRecords& records = *set.surface;
   for (std::size_t i = 0; i < records.points.size(); ++i) {
-    sum += gathered.irradiance(records.points[i]);
+    sum += light.irradiance(records.points[i]);
     of_records += vec3(records.light[i] * vec4(records.points[i].normal, 1));
   }
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c] / of_records[c], 1, 0.03f) << c;

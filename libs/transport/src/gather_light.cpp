@@ -53,7 +53,7 @@ vec3 GatherLight::irradiance(const rays::SurfacePoint& at) const {
          .from = sight.from});
     if (found.patch != no_patch) sum += sight.share * radiosity_[found.patch];
   }
-  return sum / static_cast<float>(rays_) + session_->mirrored(at) + session_->kept_direct(at);
+  return sum / static_cast<float>(rays_) + session_->mirrored(at);
 }
 
 vec3 GatherLight::glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const {

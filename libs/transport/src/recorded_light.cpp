@@ -14,7 +14,7 @@ vec3 RecordedLight::irradiance(const rays::SurfacePoint& at) const {
   if (at.moves) return lookup_->irradiance(at);
   if (const std::optional<vec3> found = lookup_->recorded_irradiance(at)) return *found;
   std::call_once(once_, [&] { gathered_.emplace(*session_, rays, lookup_); });
-  return gathered_->irradiance(at);
+  return gathered_->irradiance(at) + session_->kept_direct(at);
 }
 
 vec3 RecordedLight::glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const {
