@@ -1,6 +1,7 @@
 /// How units are cut into jobs, handed to workers and counted, with a worker that answers anything.
 
 #include <algorithm>
+#include <atomic>
 
 #include <gtest/gtest.h>
 
@@ -141,7 +142,7 @@ TEST_F(Units, WhatIsWaitedForIsSaidOnce) {
 }
 
 TEST_F(Units, WhatAWorkerCouldNotDoIsTriedAgainAndCounted) {
-  int calls = 0;
+  std::atomic<int> calls = 0;
   const ServiceThread serving = worker([&](const majordomo::Job&) {
     if (++calls == 1) throw std::runtime_error("a full disk");
     return majordomo::Frames{answer(1)};

@@ -63,8 +63,10 @@ TEST(WorkerLife, WhoCannotLetsAnotherTryAndBothAreCounted) {
   BrokerOptions options;
   options.timers.retry_backoff = 1;
   RunningBroker broker(options);
-  std::vector<std::pair<std::uint64_t, int>> seen;  // one worker at a time has the job
+  std::mutex mutex;
+  std::vector<std::pair<std::uint64_t, int>> seen;
   const Handler handler = [&](const Job& job) -> Frames {
+    const std::lock_guard lock(mutex);
     seen.emplace_back(job.number, job.attempt);
     if (seen.size() == 2) throw std::runtime_error("no memory");
     return {"done"};
@@ -74,7 +76,10 @@ TEST(WorkerLife, WhoCannotLetsAnotherTryAndBothAreCounted) {
   EXPECT_THAT(client.call("job", {"x"}), ElementsAre("done"));
   RunningWorker b({.endpoint = broker.endpoint(), .service = "job", .name = "b"}, handler);
   EXPECT_THAT(client.call("job", {"y"}), ElementsAre("done"));
-  EXPECT_THAT(seen, ElementsAre(std::pair(1u, 1), std::pair(2u, 1), std::pair(2u, 2)));
+  {
+    const std::lock_guard lock(mutex);
+    EXPECT_THAT(seen, ElementsAre(std::pair(1u, 1), std::pair(2u, 1), std::pair(2u, 2)));
+  }
   for (int i = 0; i < 1000 && (*a).served() + (*b).served() < 3; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   EXPECT_EQ((*a).served() + (*b).served(), 3u);
