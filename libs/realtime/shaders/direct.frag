@@ -138,14 +138,18 @@ void main() {
 #endif
 
 #if defined(SPHERE) || defined(MESH)
-// Irradiance for radiance 1 without shadows; negative: there is no closed form.
-float closed_form(Surface s) {
-#ifdef SPHERE
+float ball_form(Surface s) {
   vec3 d = emitter.place.xyz - s.position;
   float d2 = dot(d, d), r2 = emitter.place.w * emitter.place.w;
   return d2 > r2 ? sphere_irradiance(dot(s.normal, d) * inversesqrt(d2), r2 / d2) : PI;
+}
+
+// Irradiance for radiance 1 without shadows; negative: there is no closed form.
+float closed_form(Surface s) {
+#ifdef SPHERE
+  return ball_form(s);
 #else
-  if (emitter.count.x == 0) return -1;
+  if (emitter.count.x == 0) return emitter.place.w > 0 ? ball_form(s) : -1;
   float sum = 0;
   for (int t = 0; t < emitter.count.x; ++t) {
     vec3 p = emitter.corners[3 * t].xyz - s.position, q = emitter.corners[3 * t + 1].xyz - s.position,

@@ -58,6 +58,26 @@ double radical_inverse(unsigned i, unsigned base) {
   return value;
 }
 
+std::optional<Ball> as_ball(const scene::Mesh& mesh) {
+  constexpr float off_round = 0.02f, least_area = 0.8f;
+  scene::Bounds box;
+  for (const uvec3& t : mesh.triangles)
+    for (int c = 0; c < 3; ++c) box.add(mesh.positions[t[c]]);
+  const vec3 center = 0.5f * (box.min + box.max);
+  const float round = 0.5f * (box.max.x - box.min.x);
+  float area = 0;
+  for (const uvec3& t : mesh.triangles) {
+    const vec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
+    for (const vec3& corner : {a, b, c})
+      if (std::abs(glm::distance(corner, center) - round) > off_round * round) return std::nullopt;
+    const vec3 cross = glm::cross(b - a, c - a);
+    if (glm::dot(cross, a - center) < 0) return std::nullopt;  // seen from within
+    area += 0.5f * glm::length(cross);
+  }
+  if (!(area > least_area * 4 * pi * round * round)) return std::nullopt;
+  return Ball{center, std::sqrt(area / (4 * pi))};
+}
+
 std::vector<AreaPoint> spread_points(const scene::Mesh& mesh, const mat4& to_world, int count) {
   constexpr int candidates_each = 64, rounds = 12;
   const std::vector<Place> places = points_by_area(mesh, to_world, candidates_each * count);

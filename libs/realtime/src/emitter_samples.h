@@ -1,6 +1,7 @@
 #pragma once
 /// Points that stand for lights with an extent, and directions that stand for an environment.
 
+#include <optional>
 #include <vector>
 
 #include <ssphh/scene/scene.h>
@@ -20,6 +21,14 @@ struct AreaPoint {
 /// Points on a mesh that lie apart, each with the share of the area nearest to it: Lloyd's algorithm on
 /// points uniform by area. The same for the same input.
 std::vector<AreaPoint> spread_points(const scene::Mesh& mesh, const mat4& to_world, int count);
+
+struct Ball {
+  vec3 center;
+  float radius;  ///< of the ball of as much surface
+};
+
+/// The ball that a closed mesh stands for, if all its corners lie within 2 % of one distance from a point.
+std::optional<Ball> as_ball(const scene::Mesh& mesh);
 
 /// Points within a ball around the origin, equal shares, that fill its disc evenly from wherever they are
 /// seen.

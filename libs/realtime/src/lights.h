@@ -90,6 +90,7 @@ class Lights {
     std::vector<AreaPoint> points;  ///< in the space of the light or mesh
     std::vector<vec3> parts;        ///< of a sun: directions toward them, its middle at +z
     std::vector<vec3> corners;      ///< of triangles with a closed form, likewise
+    std::optional<Ball> ball;       ///< of a mesh of more triangles that is one, likewise
     mat4 placed{0};                 ///< pose of what is in the buffers
     int first_map;
     bool left_out = false;

@@ -31,7 +31,11 @@ void Lights::shape_as_mesh(Source& source, GpuEmitter& e, const scene::Mesh& mes
   area_slots_ += static_cast<int>(source.points.size());
   e.items = ivec4(static_cast<int>(EmitterKind::mesh), 0, static_cast<int>(source.points.size()), 0);
   e.more.z = mesh_area(mesh, placed);
-  if (!even || mesh.triangles.size() > shading::MeshView::max_triangles) return;
+  if (!even) return;
+  if (mesh.triangles.size() > shading::MeshView::max_triangles) {
+    source.ball = as_ball(mesh);
+    return;
+  }
   for (const uvec3& t : mesh.triangles) {
     for (int c = 0; c < 3; ++c) source.corners.push_back(mesh.positions[t[c]]);
   }
@@ -80,6 +84,11 @@ void Lights::place_samples(Source& source, const mat4& world) {
       const bool behind = directed && e.more.y == 0 && glm::dot(view.forward, normal) < -0.82f;
       areas_.set_view(6 * slot + face, view, !behind);
     }
+  }
+  if (source.ball) {
+    const vec3 scale(glm::length(vec3(world[0])), glm::length(vec3(world[1])), glm::length(vec3(world[2])));
+    const bool even = glm::all(glm::lessThan(glm::abs(scale - scale.x), vec3(0.01f * scale.x)));
+    e.place = vec4(vec3(world * vec4(source.ball->center, 1)), even ? scale.x * source.ball->radius : 0);
   }
   for (std::size_t i = 0; i < source.corners.size(); ++i) e.corners[i] = world * vec4(source.corners[i], 1);
 }

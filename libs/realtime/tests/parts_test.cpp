@@ -143,6 +143,25 @@ TEST(MeshPieces, KeepEveryTriangle) {
   EXPECT_EQ(got, wanted);
 }
 
+TEST(EmitterSamples, BallsAreToldFromOtherMeshes) {
+  scene::Mesh ball = scene::make_sphere(2, 24, 12);
+  for (vec3& corner : ball.positions) corner += vec3(1, -3, 5);
+  const std::optional<Ball> found = as_ball(ball);
+  ASSERT_TRUE(found);
+  EXPECT_LT(glm::distance(found->center, vec3(1, -3, 5)), 1e-4f);
+  EXPECT_LT(found->radius, 2);
+  EXPECT_GT(found->radius, 1.95f) << "of as much surface: triangles stand within";
+
+  EXPECT_FALSE(as_ball(scene::flipped(ball))) << "it glows inward";
+  EXPECT_FALSE(as_ball(scene::make_box(vec3(-1), vec3(1)))) << "corners on a ball, and too little surface";
+  scene::Mesh egg = scene::make_sphere(2, 24, 12), half = egg;
+  for (vec3& corner : egg.positions) corner.y *= 1.1f;
+  EXPECT_FALSE(as_ball(egg));
+  half.triangles.resize(half.triangles.size() / 2);
+  EXPECT_FALSE(as_ball(half));
+  EXPECT_FALSE(as_ball(scene::Mesh()));
+}
+
 TEST(EmitterSamples, PointsOnAStripLieApartAndShareItsArea) {
   const scene::Mesh strip = scene::make_quad({0, 0, 0}, {7, 0, 0}, {0, 0, -0.2f});
   const std::vector<AreaPoint> points = spread_points(strip, mat4(1), 14);
