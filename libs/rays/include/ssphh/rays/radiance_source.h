@@ -115,7 +115,8 @@ class RadianceSource {
 };
 
 /// Indirect light at surface points: all calls may come from several threads at once. Implemented by
-/// probes::IrradianceLookup, probes::LightLookup and the light of every method in libs/methods.
+/// probes::IrradianceLookup, probes::LightLookup, transport::GatherLight, transport::RecordedLight and the
+/// light of every method in libs/methods.
 class IndirectLight {
  public:
   virtual ~IndirectLight() = default;
