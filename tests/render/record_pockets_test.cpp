@@ -35,19 +35,21 @@ TEST(RecordPockets, AreEverywhereThatASurfelWouldSeeNone) {
 TEST(RecordPockets, AreNearMostPatches) {
   // A point at the border of the next one's reach is told by that alone, however little it weighs.
   const SolvedScene gallery(scene::make_builtin("gallery1"));
-  const auto gather = gallery.where_needed(150, 32);
   const rays::PosedWorld world(gallery.source, 0);
-  const probes::SurfaceInterpolation known(gather->points(),
-                                           [&](const vec3& a, const vec3& b) { return world.visible(a, b); });
-  const auto from_afar = [&](const rays::SurfacePoint& p) {
-    probes::SurfaceShares storage;
-    return std::ranges::none_of(known.at(p, storage), [&](const probes::SurfaceShare& share) {
-      return glm::distance(known.position(share.point), p.position) < 2.3f * known.spacing(share.point);
+  const std::vector<rays::SurfacePoint> patches = transport::surfel_points(gallery.network(), 4);
+  const auto from_afar = [&](int most) {
+    const auto gather = gallery.where_needed(most, 32);
+    const probes::SurfaceInterpolation known(
+        gather->points(), [&](const vec3& a, const vec3& b) { return world.visible(a, b); });
+    return std::ranges::count_if(patches, [&](const rays::SurfacePoint& p) {
+      probes::SurfaceShares storage;
+      return std::ranges::none_of(known.at(p, storage), [&](const probes::SurfaceShare& share) {
+        return glm::distance(known.position(share.point), p.position) < 2.3f * known.spacing(share.point);
+      });
     });
   };
-  const std::vector<rays::SurfacePoint> patches = transport::surfel_points(gallery.network(), 4);
-  // 106 of 13,006 patches; 303 where any point within reach will do.
-  EXPECT_LT(std::ranges::count_if(patches, from_afar), 200);
+  // 106, 109, 170 of 13,006 patches; 192, 246, 325 where any point within reach will do.
+  EXPECT_LT(from_afar(120) + from_afar(140) + from_afar(160), 570);
 }
 
 TEST(RecordPockets, ThoseOfPatchesLeaveNoSurfelWithoutAny) {

@@ -10,6 +10,7 @@
 #include <ssphh/shading/scattering.h>
 
 #include "glass_passage.h"
+#include "mirror_lobe.h"
 #include "posed_geometry.h"
 #include "surface_gap.h"
 
@@ -53,6 +54,8 @@ struct PathSampler {
   vec2 glass(int n) const {
     return sample_pairs(hash_combine(seed, 0x5eed61a550000000 + static_cast<std::uint64_t>(n)), index)[0];
   }
+  /// For what a surface with a lookup mirrors.
+  PathSampler mirrored() const { return {hash_combine(seed, 0x3e1f0110), index}; }
   /// What lets the ray pass that leaves a vertex: glass only toward lights, smooth sheets or all of it.
   Passage passage(const PosedGeometry& scene, int vertex, bool shadow, bool all_glass = false,
                   rays::PathSet paths = rays::PathSet::all) const {
@@ -100,15 +103,17 @@ inline shading::ScatteringFrom scattering_from(const shading::Surface& surface, 
   return {surface, Frame::around(surface.normal).to_local(wo)};
 }
 
-/// Share of f(wo, wi) that is its specular lobe's; of an opaque surface, directions in its shading frame.
-inline vec3 specular_share(const shading::Surface& surface, const vec3& wo, const vec3& wi) {
-  const vec3 all = shading::BsdfFrom(surface.bsdf, wo).eval(wi).value;
-  shading::BsdfParams specular = surface.bsdf;
-  specular.diffuse = vec3(0);
-  const vec3 lobe = shading::BsdfFrom(specular, wo).eval(wi).value;
-  vec3 share(0);
-  for (glm::length_t c = 0; c < 3; ++c) share[c] = all[c] > 0 ? std::min(lobe[c] / all[c], 1.0f) : 0;
-  return share;
+/// What arrives of a light sample whose light, its density not yet divided by, is reflected as `value`.
+/// `scattered_pdf`: of the scattered rays that may meet the light, too, and share its weight; 0: there are
+/// none. `start`: where rays leave `position` on the light's side.
+inline vec3 next_event(const PosedGeometry& scene, const shading::LightSample& toward, const vec3& value,
+                       float scattered_pdf, const vec3& start, const vec3& position, const Passage& passage,
+                       RayTask& task) {
+  if (!(max_component(value) > 0)) return vec3(0);
+  const bool alone = toward.delta || scattered_pdf == 0;
+  const float weight = alone ? 1 : shading::power_heuristic(toward.pdf, scattered_pdf);
+  return scene.transmittance(shadow_ray(start, position, toward), passage, task) * value *
+         (weight / toward.pdf);
 }
 
 /// Decides at a hit whether the path goes straight on, as smooth sheets let it, and with `all_glass` any
@@ -247,17 +252,28 @@ void trace_path(const PosedGeometry& scene, const Emitters& emitters, Ray ray, c
         const vec3 wi = frame.to_local(toward->wi);
         shading::BsdfValue f;
         if ((wi.z > 0) == (side > 0)) f = scattering.eval(wi);
-        const vec3 value = light.throughput * f.value * toward->radiance;
-        if (max_component(value) > 0) {
-          const bool alone = toward->delta || options.strategy == Strategy::nee_only;
-          const float weight = alone ? 1 : shading::power_heuristic(toward->pdf, f.pdf);
-          const vec3& start = side > 0 ? ray_origin : beyond_surface;
-          const Ray shadow = shadow_ray(start, vertex.position, *toward);
-          const vec3 through = scene.transmittance(
-              shadow, sampler.passage(scene, vertices, true, options.looks_up && !looks_up, options.paths),
-              task);
-          if (max_component(through) > 0)
-            visitor.add(depth + 1, toward->group, through * value * (weight / toward->pdf), -toward->wi);
+        const vec3& start = side > 0 ? ray_origin : beyond_surface;
+        const Passage passage =
+            sampler.passage(scene, vertices, true, options.looks_up && !looks_up, options.paths);
+        const vec3 arrives = next_event(scene, *toward, light.throughput * f.value * toward->radiance,
+                                        options.strategy == Strategy::nee_only ? 0 : f.pdf, start,
+                                        vertex.position, passage, task);
+        if (max_component(arrives) > 0) visitor.add(depth + 1, toward->group, arrives, -toward->wi);
+      }
+    }
+    if constexpr (requires { emitters.mirrored(); }) {
+      if (vertex.mirrored != vec3(0)) {
+        const MirrorLobe lobe(surface, -ray.direction);
+        const PathSampler own = sampler.mirrored();
+        const PathSampler::Vertex u = own.vertex(vertices);
+        const float chance = std::min(lobe.rays(), 1.0f);
+        const auto toward = emitters.sample_mirrored(vertex, u.light, u.point);
+        if (toward && toward->pdf > 0 && u.roulette < chance) {
+          const vec3 reflected = vertex.mirrored * lobe.eval(toward->wi).value / chance;
+          const vec3 arrives = next_event(scene, *toward, light.throughput * reflected * toward->radiance,
+                                          scattering.eval(frame.to_local(toward->wi)).pdf, ray_origin,
+                                          vertex.position, own.passage(scene, vertices, true, true), task);
+          if (max_component(arrives) > 0) visitor.add(depth + 1, toward->group, arrives, -toward->wi);
         }
       }
     }

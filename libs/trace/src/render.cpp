@@ -4,6 +4,7 @@
 
 #include "camera.h"
 #include "indirect_lookup.h"
+#include "mirror_lobe.h"
 #include "tracer_data.h"
 
 namespace ssphh::trace {
@@ -107,16 +108,41 @@ class PixelSums {
 
   void follow_mirror(const vec3& throughput, const shading::Surface& surface, const vec3& ray_origin,
                      const vec3& wo, const PathSampler& before, int mirrors) {
-    const PathSampler sampler{hash_combine(before.seed, 0x3e1f0110), before.index};
+    const MirrorLobe lobe(surface, wo);
+    // Grain comes of the first mirror: later ones are few, and seen through it.
+    const float wanted = std::min(lobe.rays(), mirrors > 1 ? 1.0f : static_cast<float>(lobe.most_rays));
+    const int rays = static_cast<int>(std::ceil(wanted));
+    for (int r = 0; r < rays; ++r) {
+      PathSampler sampler = before.mirrored();
+      sampler.index = sampler.index * static_cast<std::uint32_t>(rays) + static_cast<std::uint32_t>(r);
+      if (sampler.vertex(0).roulette * static_cast<float>(rays) >= wanted) continue;
+      follow_ray(throughput / wanted, surface, lobe, ray_origin, sampler, mirrors);
+    }
+  }
+
+  void follow_ray(const vec3& throughput, const shading::Surface& surface, const MirrorLobe& lobe,
+                  const vec3& ray_origin, const PathSampler& sampler, int mirrors) {
     const PathSampler::Vertex random = sampler.vertex(0);
-    const auto sent = sample_mirror(surface, wo, random.lobe, random.direction, random.roulette);
+    PathVertex vertex{.position = surface.position,
+                      .normal = surface.geometric_normal,
+                      .looked_up = true,
+                      .followed = true};
+    if (asked_.emitters.held()) {
+      const auto toward = asked_.emitters.sample(vertex, random.light, random.point);
+      if (toward && toward->pdf > 0) {
+        const shading::BsdfValue f = lobe.eval(toward->wi);
+        add(1, toward->group,
+            next_event(asked_.data.geometry, *toward, throughput * f.value * toward->radiance, f.pdf,
+                       ray_origin, vertex.position, sampler.passage(asked_.data.geometry, 0, true, true),
+                       task_),
+            -toward->wi);
+      }
+    }
+    const auto sent = lobe.sample(random.lobe, random.direction);
     if (!sent) return;
-    const PathVertex vertex{.position = surface.position,
-                            .normal = surface.geometric_normal,
-                            .looked_up = true,
-                            .followed = true};
+    vertex.bsdf_pdf = sent->pdf;
     Mirrored visitor{*this, throughput * sent->weight, mirrors};
-    trace_path(asked_.data.geometry, asked_.emitters, {ray_origin, sent->direction}, sampler,
+    trace_path(asked_.data.geometry, asked_.emitters, {ray_origin, sent->wi}, sampler,
                PathOptions{.max_depth = 2, .looks_up = true}, task_, visitor, &vertex);
   }
 

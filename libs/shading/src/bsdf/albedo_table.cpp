@@ -5,27 +5,25 @@
 namespace ssphh::shading {
 namespace {
 
-/// (A, B) by midpoint quadrature over visible GGX normals, which suits both models: Blinn–Phong's tail is the
-/// shorter.
+/// (A, B) by a lattice of visible GGX normals, which suits both models: Blinn–Phong's tail is the shorter. No
+/// two points have the same polar angle: where wo is the normal all of a ring goes below the surface at once.
 vec2 integrate_lobe(bool phong, float alpha, const vec3& wo) {
-  constexpr int polar_steps = 24, azimuth_steps = 16;
+  constexpr int points = 377, stride = 233;  // neighbours in Fibonacci's sequence
   vec2 sum(0);
-  for (int i = 0; i < polar_steps; ++i) {
-    for (int j = 0; j < azimuth_steps; ++j) {
-      // Half of the azimuths do: the lobe is symmetric about the plane of wo
-      const vec2 u((static_cast<float>(i) + 0.5f) / polar_steps,
-                   (static_cast<float>(j) + 0.5f) / (2 * azimuth_steps));
-      const vec3 h = sample_ggx_normal(alpha, wo, u);
-      const float cos_h = glm::dot(wo, h);
-      const vec3 wi = 2 * cos_h * h - wo;
-      if (wi.z <= 0 || cos_h <= 0) continue;
-      const float value = phong ? blinn_phong(alpha, wo, wi, h) : ggx(alpha, wo, wi, h);
-      const float weight = value / ggx_pdf(alpha, wo, h);
-      const float s = schlick_weight(cos_h);
-      sum += weight * vec2(1 - s, s);
-    }
+  for (int i = 0; i < points; ++i) {
+    // Half of the azimuths do: the lobe is symmetric about the plane of wo
+    const vec2 u((static_cast<float>(i) + 0.5f) / points,
+                 (static_cast<float>(i * stride % points) + 0.5f) / (2 * points));
+    const vec3 h = sample_ggx_normal(alpha, wo, u);
+    const float cos_h = glm::dot(wo, h);
+    const vec3 wi = 2 * cos_h * h - wo;
+    if (wi.z <= 0 || cos_h <= 0) continue;
+    const float value = phong ? blinn_phong(alpha, wo, wi, h) : ggx(alpha, wo, wi, h);
+    const float weight = value / ggx_pdf(alpha, wo, h);
+    const float s = schlick_weight(cos_h);
+    sum += weight * vec2(1 - s, s);
   }
-  return sum / static_cast<float>(polar_steps * azimuth_steps);
+  return sum / static_cast<float>(points);
 }
 
 }  // namespace
