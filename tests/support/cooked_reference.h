@@ -86,7 +86,7 @@ struct ListedShares {
       const int cover = e.x >> 19 & 7;
       const double quotient = d2 * std::pow(4.0, cover) / (spacing * spacing);
       const double weight =
-          std::pow(t, 8) * facing * level * level / (cover == 0 ? 1 : 1 + quotient * quotient);
+          std::pow(t, 8) / spacing * facing * level * level / (cover == 0 ? 1 : 1 + quotient * quotient);
       shares.emplace_back(point, weight);
       places.push_back({1, glm::dot(offset, dvec3(frame.x)), glm::dot(offset, dvec3(frame.y))});
       total += weight, square += weight * spacing * spacing;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/log.h>
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/stopwatch.h>
 #include <ssphh/pipeline/live_method.h>
@@ -24,6 +25,8 @@
 
 namespace ssphh::app {
 namespace {
+
+constexpr double most_dark = 0.8;  ///< share of dark points from which figures of all points say little
 
 /// Points on surfaces, or in the open near them; within the box, if one is given.
 std::vector<rays::SurfacePoint> find_points(const MeasureOptions& o, const std::optional<scene::Bounds>& box,
@@ -259,6 +262,11 @@ MeasureResult run_measure(const MeasureOptions& o, const Control& control) {
   params.noise = params.path.spp > 0 ? 0 : usual_noise;
   if (params.path.spp == 0) params.path.spp = 512;
   result.truth = study::trace_truth(tracer, result.points, params, control);
+  if (result.truth.dark > most_dark * static_cast<double>(result.points.size()))
+    log_warning(
+        "{} of {} points have hardly any indirect light, as on a wide plain: errors there are shares of next "
+        "to nothing (--views measures what cameras see, --region and --box parts of the scene)",
+        result.truth.dark, result.points.size());
   result.regions = inside_and_outside(surfaces, result.points, result.truth, o.scene.time);
   for (MeasuredRegion& region : boxes) {
     study::ConvergedTruth truth =

@@ -40,7 +40,7 @@ enum class Seen : std::uint8_t { no, yes, through_glass };
 struct Work {
   struct Candidate {
     std::uint32_t point;
-    float order;                       ///< distance from the cell's middle, in the point's spacings, squared
+    float order;                       ///< squared distance from the cell's middle, over the spacing [m]
     std::vector<std::uint32_t> asked;  ///< samples that it may light
     std::vector<Seen> seen;            ///< by those; empty: by all
     std::vector<std::uint32_t> outweighed;  ///< samples at which it does not count
@@ -169,7 +169,7 @@ class Preparation {
     reach_.visit_box(corner, corner + size, [&](std::uint32_t p, float) {
       const vec3 d = out_.points[p].position - (corner + 0.5f * size);
       const float spacing = spacings_[p];
-      work.candidates.push_back({p, glm::dot(d, d) / (spacing * spacing), {}, {}, {}});
+      work.candidates.push_back({p, glm::dot(d, d) / spacing, {}, {}, {}});
     });
     work.finest = std::numeric_limits<float>::infinity();
     for (const Work::Candidate& candidate : work.candidates)

@@ -9,12 +9,13 @@
 
 namespace ssphh::probes {
 
-/// At a squared distance [m²]: 1 there, 0 from three of the point's spacings on. Most of a lookup's weight
-/// lies within two.
+/// At a squared distance [m²]: 0 from three of the point's spacings on, and most of a lookup's weight lies
+/// within two. Of points far apart less, for they reach over finer ones: those of a plain over a street
+/// [1/m].
 inline float share_by_distance(float distance2, float spacing) {
   float t = std::max(1 - distance2 / (fitted_reach * fitted_reach * spacing * spacing), 0.0f);
   for (int i = 0; i < 3; ++i) t *= t;
-  return t;
+  return t / spacing;
 }
 
 /// On a surface: less as that turns away from the point, or the point lies off its plane; 0 from 45° on, and

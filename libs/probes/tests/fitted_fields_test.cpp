@@ -30,8 +30,9 @@ FittedPoints scattered() {
 }
 
 /// Of the point at x: a linear fit to those within three of their spacings, whose weights fall as
-/// (1 − q²/9)⁸, less the least that come to a thousandth of the rest, with a ridge of 5 % of a squared
-/// spacing on its slopes; so much of it that no more than a quarter of the weight is negative. In doubles.
+/// (1 − q²/9)⁸ over the spacing, less the least that come to a thousandth of the rest, with a ridge of 5 % of
+/// a squared spacing on its slopes; so much of it that no more than a quarter of the weight is negative. In
+/// doubles.
 std::vector<double> shares_at(const FittedPoints& fitted, const vec3& x, std::span<const float> spacings) {
   struct Near {
     double weight, spacing;
@@ -42,7 +43,7 @@ std::vector<double> shares_at(const FittedPoints& fitted, const vec3& x, std::sp
   for (std::size_t i = 0; i < fitted.points.size(); ++i) {
     const double spacing = static_cast<double>(spacings[i]);
     const double q = glm::distance(glm::dvec3(fitted.points[i].position), glm::dvec3(x)) / spacing;
-    if (q < 3) near.push_back({std::pow(1 - q * q / 9, 8), spacing, i});
+    if (q < 3) near.push_back({std::pow(1 - q * q / 9, 8) / spacing, spacing, i});
     if (q < 3) left += near.back().weight;
   }
   std::ranges::sort(near, std::greater(), &Near::weight);

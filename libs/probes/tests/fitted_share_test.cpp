@@ -46,10 +46,10 @@ class Around {
     return result;
   }
   double spacing(std::size_t point) const { return double(surface_spacings(fitted_.points)[point]); }
-  /// What the point counts by its distance from the origin: (1 − q²/9)⁸ within three spacings.
+  /// What the point counts by its distance from the origin: (1 − q²/9)⁸ within three spacings, over one.
   double by_distance(std::size_t point) const {
     const double q = double(glm::length(fitted_.points[point].position)) / spacing(point);
-    return q < 3 ? std::pow(1 - q * q / 9, 8) : 0;
+    return q < 3 ? std::pow(1 - q * q / 9, 8) / spacing(point) : 0;
   }
   vec3 place(std::size_t point) const { return frame_.to_local(fitted_.points[point].position); }
 

@@ -287,5 +287,26 @@ TEST(SurfaceInterpolation, WhatAKerbLightsIsNotTheRoad) {
   }
 }
 
+TEST(SurfaceInterpolation, PointsOfAPlainSayLittleOfTheStreetOnIt) {
+  // A street of nine by nine records on a plain, from whose bright points all of it is seen and reached
+  const float step = 80;
+  std::vector<rays::SurfacePoint> points = floor_grid(9, 0.5f);
+  for (rays::SurfacePoint p : floor_grid(8, step)) {
+    p.position += vec3(-3.37f * step, 0, -3.37f * step);
+    points.push_back(p);
+  }
+  std::vector<RecordLight> light(points.size(), RecordLight(0));
+  for (std::size_t i = 0; i < points.size(); ++i) light[i][3] = i < 81 ? vec3(1, 2, 3) : vec3(7, 6, 5);
+  const SurfaceInterpolation records(points, [](const vec3&, const vec3&) { return true; });
+  EXPECT_NEAR(records.spacing(81 + middle_of(8)), step, 0.4f * step);
+  const auto light_at = [&](float x) {
+    vec3 found(0);
+    EXPECT_TRUE(records.irradiance({{x, 0, 2.1f}, {0, 1, 0}}, light, found)) << x;
+    return found;
+  };
+  EXPECT_LT(glm::distance(light_at(2.2f), vec3(1, 2, 3)), 0.05f);
+  EXPECT_LT(glm::distance(light_at(60), vec3(7, 6, 5)), 0.01f) << "beyond the reach of the street's";
+}
+
 }  // namespace
 }  // namespace ssphh::probes

@@ -42,7 +42,7 @@ float fitted_weight(uvec4 entry, uvec4 place, Surface s) {
   float level = max(1 - off * off, 0.0);
   int cover = int(entry.x >> 19 & 7u);
   float open = float(1 << cover), q = d2 * open * open / s2;
-  return t * t * facing * level * level * (cover == 0 ? 1 : 1 / (1 + q * q));
+  return t * t / spacing * facing * level * level * (cover == 0 ? 1 : 1 / (1 + q * q));
 }
 
 // Dot product of the ten halves of one colour with `y`.

@@ -49,7 +49,7 @@ float ssphh_point_weight(uint entry, vec3 n, vec3 x, ivec4 parts, int mask, out 
   t *= t;
   t *= t;
   float opening = float(1u << cover), q = d2 * opening * opening / s2;
-  return t * facing * level * level * (cover == 0u ? 1.0 : 1.0 / (1.0 + q * q));
+  return t / spacing * facing * level * level * (cover == 0u ? 1.0 : 1.0 / (1.0 + q * q));
 }
 
 // Irradiance that a point's light gives for a normal

@@ -73,7 +73,7 @@ static float weight_of(const ssphh_cooked_point* p, const float offset[3], const
   t *= t, t *= t, t *= t;
   const uint32_t cover = p->cover;
   const float open = (float)(1u << cover), q = d2 * open * open / s2;
-  return t * facing * level * level * (cover == 0 ? 1 : 1 / (1 + q * q));
+  return t / p->spacing * facing * level * level * (cover == 0 ? 1 : 1 / (1 + q * q));
 }
 
 /// The points of the cell that count, and the linear fit's weights.

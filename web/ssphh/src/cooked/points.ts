@@ -57,7 +57,7 @@ function weightOf(points: Float32Array, cover: number, p: number, x: number, y: 
   const level = f(1 - f(off * off));
   if (!(level > 0)) return 0;
   t = f(t * t), t = f(t * t), t = f(t * t);
-  const weight = f(f(f(t * facing) * level) * level);
+  const weight = f(f(f(f(t / spacing) * facing) * level) * level);
   if (cover === 0) return weight;
   const open = 1 << cover, q = f(f(f(d2 * open) * open) / s2);
   return f(weight * f(1 / f(1 + f(q * q))));
