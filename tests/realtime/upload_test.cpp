@@ -19,7 +19,7 @@ using realtime::Renderer;
 using realtime::RendererParams;
 
 /// Of blocks as shaders read them.
-constexpr std::uint64_t frame_block = 13 * 16, material_block = 16 * 16, instance_block = 8 * 16,
+constexpr std::uint64_t frame_block = 13 * 16, material_block = 16 * 16, instance_block = 9 * 16,
                         emitter_block = (6 + 64 * 3 + 121) * 16;
 const RendererParams small{
     .light_map_size = 16, .area_map_size = 16, .sun_map_size = 16, .environment_map_size = 16};

@@ -31,10 +31,7 @@ void apply(const DrawState& state) {
   enable(GL_CULL_FACE, state.cull != Cull::off);
   glCullFace(state.cull == Cull::front ? GL_FRONT : GL_BACK);
   const GLboolean color = state.color_write ? GL_TRUE : GL_FALSE;
-  const GLboolean others = state.color_attachment < 0 ? color : GL_FALSE;
-  glColorMask(others, others, others, others);
-  if (state.color_attachment >= 0)
-    glColorMaski(static_cast<GLuint>(state.color_attachment), color, color, color, color);
+  glColorMask(color, color, color, color);
   glPolygonMode(GL_FRONT_AND_BACK, state.lines ? GL_LINE : GL_FILL);
   glDisable(GL_SCISSOR_TEST);
   const bool writes = state.stencil_write >= 0, compares = state.stencil_equal >= 0;

@@ -19,8 +19,8 @@ Framebuffer::Framebuffer(std::span<const Texture* const> colors, const Texture* 
   GLenum attachments[8];
   require(colors.size() <= 8, "framebuffer", "it takes at most 8 colour textures");
   for (std::size_t i = 0; i < colors.size(); ++i) {
-    attachments[i] = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i);
-    glNamedFramebufferTexture(id, attachments[i], colors[i]->id(), 0);
+    attachments[i] = colors[i] ? GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i) : GL_NONE;
+    if (colors[i]) glNamedFramebufferTexture(id, attachments[i], colors[i]->id(), 0);
   }
   glNamedFramebufferDrawBuffers(id, static_cast<GLsizei>(colors.size()), attachments);
   if (depth) {
@@ -44,11 +44,6 @@ Framebuffer::Framebuffer(const Texture& texture, int layer, int level) {
   } else {
     glNamedFramebufferTexture(id, attachment, texture.id(), level);
   }
-  check();
-}
-
-Framebuffer::Framebuffer(const Texture& color, const Texture& depth, int layer) : Framebuffer(color, layer) {
-  glNamedFramebufferTextureLayer(id(), GL_DEPTH_ATTACHMENT, depth.id(), 0, layer);
   check();
 }
 

@@ -59,13 +59,12 @@ class GlDraw : public WithShaders {
 };
 
 TEST_F(GlDraw, StateWithoutAWordDrawsEverythingAndKeepsDepthAndStencil) {
-  const auto& [depth, blend, cull, color_write, color_attachment, lines, stencil_equal, stencil_write,
-               stencil_mark] = DrawState{};
+  const auto& [depth, blend, cull, color_write, lines, stencil_equal, stencil_write, stencil_mark] =
+      DrawState{};
   EXPECT_EQ(depth, Depth::off);
   EXPECT_EQ(blend, Blend::off);
   EXPECT_EQ(cull, Cull::off);
   EXPECT_TRUE(color_write);
-  EXPECT_EQ(color_attachment, -1);
   EXPECT_FALSE(lines);
   EXPECT_EQ(stencil_equal, -1);
   EXPECT_EQ(stencil_write, -1);

@@ -19,13 +19,23 @@ float kept_by_lobe(float cosine, float roughness) {
   return table.x + table.y;
 }
 
-// Seen from outside. What goes through a body's surface has half the way through it to go.
+// Of a body: the part of what it absorbs that belongs to one crossing of its surface, `distance` behind the middle of its box.
+// All crossings together make the way through it, in whatever order they are drawn: what the way in has too much before the
+// middle the way out lacks beyond it. Crossings that something hides count where that stands: on their way in and out they
+// cancel. `most`: powers of e that the picture holds.
+vec3 absorbed_at(float distance, bool going_in, bool hidden, float most) {
+  float reach = most / max(max_component(material.inside.rgb), 1e-20);
+  if (hidden) distance = clamp(distance, -reach, reach);
+  return exp(min((going_in ? distance : -distance) * material.inside.rgb, most));
+}
+
+// Seen from outside.
 GlassShares glass_shares(float cosine, vec3 tint) {
   vec2 r = material.glass.w * fresnel_reflectance(cosine, material.glass.z);
   GlassShares shares;
   if (material.glass.y == 0) {
     shares.reflected = vec3(0.5 * (r.x + r.y));
-    shares.transmitted = (1 - shares.reflected) * tint * material.inside.rgb;
+    shares.transmitted = (1 - shares.reflected) * tint;
     return shares;
   }
   vec3 through_s = (1 - r.x) * (1 - r.x) * tint / max(1 - r.x * r.x * tint * tint, vec3(1e-12));

@@ -11,13 +11,14 @@ layout(std140, binding = BINDING_MATERIAL_BLOCK) uniform MaterialBlock {
   vec4 rough;     // diffuse, specular (both bipolar), F0 of the dielectric, normal scale
   vec4 alpha;     // cutoff, mode (0 opaque, 1 mask, 2 blend), unlit, double sided
   vec4 glass;     // transmission, 1 for a thin sheet, index of refraction, weight of what is reflected
-  vec4 inside;    // rgb: what a solid body leaves of light on half the way through it
+  vec4 inside;    // rgb: what a solid body absorbs [1/m]
   TextureUse base_use, rough_use, emission_use, normal_use, transmission_use;
 } material;
 layout(std140, binding = BINDING_INSTANCE_BLOCK) uniform InstanceBlock {
   mat4 world;
   mat3x4 normal;        // inverse transpose, columns
   vec4 emission_scale;  // of its light group; w: 1 if it mirrors, and 2 if an animation moves it
+  vec4 middle;          // of its box in the world
 } instance;
 
 layout(binding = UNIT_BASE_TEXTURE) uniform sampler2D base_texture;

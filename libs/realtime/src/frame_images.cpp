@@ -23,6 +23,7 @@ FrameImages::FrameImages(int w, int h, int samples, int scale)
   using Colors1 = std::array<const Texture*, 1>;
   geometry_pass = Framebuffer(std::array<const Texture*, 3>{&gbuffer0, &gbuffer1, &color}, &depth);
   light_pass = Framebuffer(Colors1{&color}, &depth);
+  glass_pass = Framebuffer(std::array<const Texture*, 3>{nullptr, nullptr, &color}, nullptr);
   occlusion_pass = Framebuffer(Colors1{&occlusion}, &depth);
   shadow_pass = Framebuffer(Colors1{&shadow}, &depth);
   if (samples > 1) resolve_pass = Framebuffer(Colors1{&resolved}, nullptr);

@@ -14,7 +14,7 @@ struct FrameImages {
   gl::Texture color;                      ///< radiance of every sample
   gl::Buffer listed;                      ///< ListHead, and room for every sample
   gl::Texture resolved;                   ///< of every pixel, where a pixel has several samples
-  gl::Framebuffer geometry_pass, light_pass, indirect_pass, cells_pass, occlusion_pass, shadow_pass,
+  gl::Framebuffer geometry_pass, light_pass, glass_pass, indirect_pass, cells_pass, occlusion_pass, shadow_pass,
       resolve_pass;
 
   FrameImages() = default;

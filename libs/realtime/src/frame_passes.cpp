@@ -94,11 +94,10 @@ void Renderer::Data::draw_items(GlassLayer layer, gl::DrawState state, const Wan
 
 void Renderer::Data::draw_glass() {
   const auto is_glass = [](const DrawItem& item) { return item.glass; };
+  gl::bind_framebuffer(images.glass_pass.id(), images.full());
+  images.gbuffer1.bind(unit::gbuffer1);
+  draw_items(GlassLayer::through, {.blend = gl::Blend::multiply}, is_glass);
   gl::bind_framebuffer(images.geometry_pass.id(), images.full());
-  constexpr int color_image = 2;
-  draw_items(GlassLayer::through,
-             {.depth = gl::Depth::test, .blend = gl::Blend::multiply, .color_attachment = color_image},
-             is_glass);
   gl::clear_stencil(surface_class::nothing);
   draw_items(GlassLayer::reflecting, {.depth = gl::Depth::test_and_write, .blend = gl::Blend::add}, is_glass);
 }

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include <ssphh/rays/posed_world.h>
+#include <ssphh/shading/surface.h>
 
 namespace ssphh::realtime {
 namespace {
@@ -26,8 +27,7 @@ GpuMaterial gpu_material(const scene::Material& m) {
              m.double_sided ? 1.0f : 0.0f};
   const bool body = m.thickness > 0;
   g.glass = {m.is_glass() ? m.transmission : 0, body ? 0 : 1, m.ior, m.specular};
-  const float half_way = body && m.attenuation_distance > 0 ? 0.5f * m.thickness / m.attenuation_distance : 0;
-  g.inside = vec4(glm::pow(m.attenuation_color, vec3(half_way)), 0);
+  g.inside = vec4(shading::absorption_of(m), 0);
   g.base_use = gpu_use(m.base_color_texture);
   g.rough_use = gpu_use(m.metallic_roughness_texture);
   g.emission_use = gpu_use(m.emission_texture);
@@ -134,13 +134,14 @@ void GpuScene::classify(const std::vector<scene::Material>& materials) {
       classes_.push_back(class_of(m)), glass_.push_back(glass_kind(m));
     classes_.push_back(class_of(plain_material)), glass_.push_back(GlassKind::none);
   }
-  any_full_ = any_glass_ = false;
+  any_full_ = any_glass_ = any_absorbs_ = false;
   for (DrawItem& item : items_) {
     item.surface_class = classes_[item.material];
     const GlassKind glass = glass_[item.material];
     item.glass = glass != GlassKind::none;
     any_full_ |= item.surface_class == surface_class::full && glass != GlassKind::everywhere;
     any_glass_ |= item.glass;
+    any_absorbs_ |= item.glass && vec3(materials_[item.material].inside) != vec3(0);
   }
   std::ranges::stable_sort(items_, [](const DrawItem& a, const DrawItem& b) {
     return std::tuple(a.filters(), a.glass, a.textures, a.surface_class, a.material, a.arrays) <
@@ -160,9 +161,14 @@ void GpuScene::pose(const std::vector<mat4>& world, std::vector<scene::Bounds>& 
     if (now == instances_[i].world && !bounds_.empty()) continue;
     add_boxes(static_cast<int>(i));
     set_world(instances_[i], now);
+    scene::Bounds around;
     for (DrawItem& item : items_) {
-      if (item.instance == static_cast<int>(i)) item.world = rays::transformed(item.local, now);
+      if (item.instance != static_cast<int>(i)) continue;
+      item.world = rays::transformed(item.local, now);
+      around.add(item.world.min);
+      around.add(item.world.max);
     }
+    instances_[i].middle = around.empty() ? now[3] : vec4(around.center(), 1);
     add_boxes(static_cast<int>(i));
     upload_block(counters, instance_buffer_, instances_[i], i);
   }

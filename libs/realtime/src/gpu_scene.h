@@ -55,6 +55,8 @@ class GpuScene {
   /// Whether anything but glass, which has passes of its own, reflects otherwise than Lambert's law says.
   bool any_full() const { return any_full_; }
   bool any_glass() const { return any_glass_; }
+  /// Whether any body of glass absorbs light on its way through it.
+  bool any_absorbs() const { return any_absorbs_; }
 
   /// Then draw() what is wanted, in the order of items() for few changes of state. `program`
   /// is the one in use.
@@ -94,7 +96,7 @@ class GpuScene {
   scene::Bounds bounds_;
   float anisotropy_;
   std::size_t bytes_ = 0;
-  bool any_full_ = false, any_glass_ = false;
+  bool any_full_ = false, any_glass_ = false, any_absorbs_ = false;
   // Since begin(); below 0: none
   mutable int bound_material_, bound_instance_;
   mutable const MeshArrays* bound_arrays_;

@@ -41,8 +41,9 @@ struct GpuInstance {
   mat4 world;
   vec4 normal[3];
   vec4 emission_scale{1, 1, 1, 0};
+  vec4 middle{0};
 };
-static_assert(sizeof(GpuInstance) == 8 * 16 && offsetof(GpuInstance, emission_scale) == 7 * 16);
+static_assert(sizeof(GpuInstance) == 9 * 16 && offsetof(GpuInstance, middle) == 8 * 16);
 inline constexpr std::size_t block_stride = 256;
 static_assert(sizeof(GpuMaterial) <= block_stride && sizeof(GpuInstance) <= block_stride);
 

@@ -102,7 +102,7 @@ void MapAtlas::keep(MapAtlas&& before) {
 
 void MapAtlas::copy_kept() {
   const std::unique_ptr<MapAtlas> before = std::move(before_);
-  if (!before || (glass_.id() && !before->glass_.id())) return;
+  if (!before || (glass_.id() && !(before->glass_.id() && before->glass_.format() == glass_.format()))) return;
   const auto place = [&](const MapAtlas& atlas, const gl::Texture& texture, int tile) {
     return gl::LayerPlace{texture, atlas.layout_.layer(tile), atlas.layout_.column(tile) * size_,
                           atlas.layout_.row(tile) * size_};
@@ -128,18 +128,21 @@ void MapAtlas::copy_kept() {
   }
 }
 
-void MapAtlas::begin_glass() {
-  if (glass_.id() || !texture_.id()) return;
-  glass_ = gl::Texture(gl::Format::rgba8, texture_.width(), texture_.height(), layout_.layers);
+void MapAtlas::begin_glass(bool absorbs) {
+  // One crossing of a body may say more than 1
+  const gl::Format format = absorbs ? gl::Format::rgba16f : gl::Format::rgba8;
+  if (!texture_.id() || (glass_.id() && glass_.format() == format)) return;
+  glass_layers_.clear();
+  glass_ = gl::Texture(format, texture_.width(), texture_.height(), layout_.layers);
   glass_.set_filter(true);
-  for (int i = 0; i < layout_.layers; ++i) glass_layers_.emplace_back(glass_, texture_, i);
+  for (int i = 0; i < layout_.layers; ++i) glass_layers_.emplace_back(glass_, i);
   redraw_all();
 }
 
 int MapAtlas::update(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, int most, int& waiting,
                      FrameCounters& counters, gl::Program* glass) {
   changed_.clear();
-  if (glass) begin_glass();
+  if (glass) begin_glass(scene.any_absorbs());
   copy_kept();
   int drawn = 0;
   for (std::size_t t = 0; t < fresh_.size() && stale_ > 0 && drawn < most; ++t) {
@@ -196,11 +199,12 @@ void MapAtlas::draw_tile(int tile, const GpuScene& scene, gl::Program& opaque, g
   }
   if (!glass) return;
 
-  // What is behind the nearest surface dims nothing before it
   gl::bind_framebuffer(glass_layers_[layer].id(), rect);
   gl::clear_color(rect, 0, 1, 1, 1, 1);
-  gl::apply({.depth = gl::Depth::test, .blend = gl::Blend::multiply});
+  gl::apply({.blend = gl::Blend::multiply});
+  texture_.bind(unit::light_maps);
   use_filtering(*glass);
+  glass->set("layer", layout_.layer(tile));
   for (const DrawItem& item : scene.items())
     if (item.glass && sees_box(view, item.world)) scene.draw(item, true, counters);
 }

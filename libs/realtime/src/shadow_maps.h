@@ -82,7 +82,7 @@ class MapAtlas {
  private:
   void draw_tile(int tile, const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, gl::Program* glass,
                  FrameCounters& counters);
-  void begin_glass();
+  void begin_glass(bool absorbs);
   void redraw_all();
   void copy_kept();
 

@@ -93,15 +93,17 @@ GlassParams glass_of(const scene::Scene& scene, const scene::Material& material,
   glass.specular = material.specular;
   glass.roughness = glm::min(std::abs(at.roughness), 1.0f);
   glass.tint = base;
-  if (!glass.sheet && material.attenuation_distance > 0) {
-    constexpr float least = 1e-30f;  // black after any distance, and no infinity
-    glass.absorption =
-        -glm::log(glm::max(material.attenuation_color, vec3(least))) / material.attenuation_distance;
-  }
+  glass.absorption = absorption_of(material);
   return glass;
 }
 
 }  // namespace
+
+vec3 absorption_of(const scene::Material& material) {
+  if (!(material.thickness > 0 && material.attenuation_distance > 0)) return vec3(0);
+  constexpr float least = 1e-30f;  // black after any distance, and no infinity
+  return -glm::log(glm::max(material.attenuation_color, vec3(least))) / material.attenuation_distance;
+}
 
 Surface surface_at(const scene::Scene& scene, const scene::Mesh& mesh, int material, std::uint32_t triangle,
                    const vec2& barycentric, const mat4& world, const mat3& normal_matrix, const vec3& wo) {

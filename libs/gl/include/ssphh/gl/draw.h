@@ -18,7 +18,6 @@ struct DrawState {
   Blend blend = Blend::off;
   Cull cull = Cull::off;
   bool color_write = true;
-  int color_attachment = -1;  ///< the only one that is written; −1: all
   bool lines = false;         ///< draw triangles' edges only
   int stencil_equal = -1;     ///< only where the stencil has this value; −1: everywhere
   int stencil_write = -1;     ///< the stencil's new value where the depth test passes; −1: as it was
