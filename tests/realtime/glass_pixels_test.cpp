@@ -322,5 +322,50 @@ TEST_F(GlassPixels, TheSunGoesThroughBodiesThatStandOnTheGround) {
   EXPECT_LT(off, lit / 20);
 }
 
+TEST_F(GlassPixels, BodiesBendWhatIsBehindThem) {
+  // A ball before a wall of four glowing squares, which it shows upside down
+  scene::Scene s;
+  s.materials = {matte(vec3(0)), pane({0.9f, 1, 0.95f})};
+  s.materials[1].thickness = 1, s.materials[1].attenuation_color = {0.7f, 0.9f, 0.8f};
+  s.materials[1].attenuation_distance = 2;
+  add_mesh(s, scene::make_quad({-20, -20, -9.1f}, {40, 0, 0}, {0, 40, 0}), 0);
+  for (int x = 0; x < 2; ++x) {
+    for (int y = 0; y < 2; ++y) {
+      const float fx = static_cast<float>(x), fy = static_cast<float>(y);
+      scene::Material& glows = s.materials.emplace_back(matte(vec3(0)));
+      glows.emission = vec3(0.2f + 0.6f * fx, 0.3f + 0.5f * fy, 0.5f);
+      add_mesh(s, scene::make_quad({6 * fx - 6, 6 * fy - 6, -9}, {6, 0, 0}, {0, 6, 0}),
+               static_cast<int>(s.materials.size()) - 1);
+    }
+  }
+  add_mesh(s, scene::make_sphere(1.2f, 128, 64), 1, {0.3f, -0.2f, -5});
+  s.nodes.emplace_back();
+  s.cameras.emplace_back().node = static_cast<int>(s.nodes.size()) - 1;
+  s.cameras[0].yfov = 0.6f;
+  scene::validate(s);
+  trace::RenderParams params;
+  params.width = glass_size.width, params.height = glass_size.height;
+  params.camera = scene::camera_pose(s, "");
+  params.path = {.max_depth = 3, .passes = 1, .spp = 64, .seed = 1};
+  trace::RenderState state;
+  trace::PathTracer(s).render(params, state);
+  const image::Image traced = trace::resolve(state.color, 1), drawn = draw(s);
+  s.materials[1].ior = 1;
+  const image::Image straight = draw(s);
+  const auto off = [&](const image::Image& picture) {
+    double sum = 0, all = 0;
+    for (std::size_t i = 0; i < traced.pixels.size(); ++i) {
+      sum += static_cast<double>(std::abs(picture.pixels[i] - traced.pixels[i]));
+      all += static_cast<double>(traced.pixels[i]);
+    }
+    return sum / all;
+  };
+  EXPECT_LT(off(drawn), 0.035);
+  EXPECT_GT(off(straight), 0.08);
+  for (const auto& [x, y] : {std::pair(24, 16), {28, 17}, {26, 20}, {23, 15}, {30, 13}})
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(drawn.at(x, y)[c], traced.at(x, y)[c], 0.1f * traced.at(x, y)[c]) << x << " " << y;
+}
+
 }  // namespace
 }  // namespace ssphh::test

@@ -40,9 +40,9 @@ enum class Seen : std::uint8_t { no, yes, through_glass };
 struct Work {
   struct Candidate {
     std::uint32_t point;
-    float order;                       ///< squared distance from the cell's middle, over the spacing [m]
-    std::vector<std::uint32_t> asked;  ///< samples that it may light
-    std::vector<Seen> seen;            ///< by those; empty: by all
+    float order;                            ///< squared distance from the cell's middle, over the spacing [m]
+    std::vector<std::uint32_t> asked;       ///< samples that it may light
+    std::vector<Seen> seen;                 ///< by those; empty: by all
     std::vector<std::uint32_t> outweighed;  ///< samples at which it does not count
   };
   SurfaceSamples samples;

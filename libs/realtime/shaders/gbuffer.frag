@@ -18,23 +18,7 @@ layout(location = 2) out vec4 color_out;
 
 uniform int emission_shown;  // 1: all; 2: of unlit surfaces, whose colour it is
 #ifdef GLASS
-uniform int glass_layer;
-layout(binding = UNIT_GBUFFER1) uniform usampler2D opaque_gbuffer1;  // of GLASS_THROUGH
-
-// What a crossing of glass leaves of the light from what is behind it. Bodies absorb up to that, as what stands in them or on
-// their ground hides where light enters.
-vec3 left_by_crossing(vec3 crossed, bool from_front) {
-  float depth = dot(from_camera, frame.camera_forward.xyz);
-  float behind = uintBitsToFloat(texelFetch(opaque_gbuffer1, ivec2(gl_FragCoord.xy), 0).y);
-  bool hidden = behind != 0 && depth > behind;
-  vec3 left = hidden ? vec3(1) : crossed;
-  if (material.glass.y != 0) return left;
-  vec3 to_middle = instance.middle.xyz - frame.camera_position.xyz;
-  bool parallel = frame.camera_position.w != 0;
-  float along = parallel ? 1 : length(from_camera) / depth;
-  float middle = parallel ? dot(to_middle, frame.camera_forward.xyz) : length(to_middle);
-  return left * absorbed_at(along * (hidden ? behind : depth) - middle, from_front, hidden, 60);
-}
+#include "glass_layers.glsl"
 #endif
 
 vec3 normalize_or(vec3 v, vec3 fallback) {
@@ -118,6 +102,22 @@ void main() {
   {
     float share = glass_share(uv.xy, uv.zw);
     if ((share < 0.5) != (glass_layer == GLASS_OPAQUE)) discard;
+    float depth = dot(from_camera, frame.camera_forward.xyz);
+    if (glass_layer == GLASS_EXITS) {
+      if (from_front) discard;
+      gbuffer0 = uvec4(floatBitsToUint(depth), packSnorm2x16(oct_encode(n)), uint(instance.middle.w), 0);
+      gbuffer1 = uvec2(0), color_out = vec4(0);
+      return;
+    }
+#ifdef BENT
+    {
+      uvec4 leaves = texelFetch(exits, ivec2(gl_FragCoord.xy), 0);
+      if (!from_front || leaves.z != uint(instance.middle.w) || depth > uintBitsToFloat(leaves.x)) discard;
+      gbuffer0 = uvec4(0), gbuffer1 = uvec2(0);
+      color_out = vec4(share * kept_by_lobe(dot(n, wo), abs(roughness.y)) * light_through_body(n, wo, base.rgb), 1);
+      return;
+    }
+#endif
     float cosine = clamp(dot(n, wo), 0.0, 1.0);
     GlassShares shares = glass_shares(cosine, base.rgb);
     if (glass_layer == GLASS_THROUGH) {

@@ -18,7 +18,7 @@ layout(std140, binding = BINDING_INSTANCE_BLOCK) uniform InstanceBlock {
   mat4 world;
   mat3x4 normal;        // inverse transpose, columns
   vec4 emission_scale;  // of its light group; w: 1 if it mirrors, and 2 if an animation moves it
-  vec4 middle;          // of its box in the world
+  vec4 middle;          // of its box in the world; w: its number, from 1
 } instance;
 
 layout(binding = UNIT_BASE_TEXTURE) uniform sampler2D base_texture;

@@ -43,6 +43,16 @@ void FrameImages::make_interpolation() {
   cells_pass = Framebuffer(std::array<const Texture*, 1>{&cells}, nullptr);
 }
 
+void FrameImages::want_bodies() {
+  if (exits.id() != 0) return;
+  const gl::Rect f = full();
+  exits = Texture(Format::rgba32ui, f.width, f.height);
+  exit_depth = Texture(Format::depth32f, f.width, f.height);
+  behind_glass = Texture(Format::rgba32f, f.width, f.height);
+  exits_pass = Framebuffer(std::array<const Texture*, 1>{&exits}, &exit_depth);
+  bent_pass = Framebuffer(std::array<const Texture*, 3>{nullptr, nullptr, &color}, &depth);
+}
+
 gl::Rect FrameImages::indirect() const {
   const gl::Rect f = full();
   return {0, 0, (f.width + indirect_scale - 1) / indirect_scale,
@@ -51,8 +61,8 @@ gl::Rect FrameImages::indirect() const {
 
 std::size_t FrameImages::bytes() const {
   std::size_t sum = listed.size();
-  for (const Texture* t :
-       {&gbuffer0, &gbuffer1, &depth, &color, &irradiance, &glossy, &cells, &occlusion, &shadow, &resolved}) {
+  for (const Texture* t : {&gbuffer0, &gbuffer1, &depth, &color, &irradiance, &glossy, &cells, &occlusion,
+                           &shadow, &resolved, &exits, &exit_depth, &behind_glass}) {
     if (t->id() != 0) sum += t->bytes();
   }
   return sum;

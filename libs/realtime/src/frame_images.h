@@ -10,12 +10,14 @@ struct FrameImages {
   int width = 0, height = 0;                ///< of the picture
   int supersample = 1, indirect_scale = 1;  ///< as FrameSettings
   gl::Texture gbuffer0, gbuffer1, depth, occlusion, shadow;
-  gl::Texture irradiance, glossy, cells;  ///< with `listed`, for an indirect_scale above 1 alone
-  gl::Texture color;                      ///< radiance of every sample
-  gl::Buffer listed;                      ///< ListHead, and room for every sample
-  gl::Texture resolved;                   ///< of every pixel, where a pixel has several samples
-  gl::Framebuffer geometry_pass, light_pass, glass_pass, indirect_pass, cells_pass, occlusion_pass, shadow_pass,
-      resolve_pass;
+  gl::Texture irradiance, glossy, cells;        ///< with `listed`, for an indirect_scale above 1 alone
+  gl::Texture color;                            ///< radiance of every sample
+  gl::Buffer listed;                            ///< ListHead, and room for every sample
+  gl::Texture resolved;                         ///< of every pixel, where a pixel has several samples
+  gl::Texture exits, exit_depth, behind_glass;  ///< for bodies of glass alone
+  gl::Framebuffer exits_pass, bent_pass;
+  gl::Framebuffer geometry_pass, light_pass, glass_pass, indirect_pass, cells_pass, occlusion_pass,
+      shadow_pass, resolve_pass;
 
   FrameImages() = default;
   FrameImages(int width, int height, int supersample, int indirect_scale);
@@ -28,6 +30,8 @@ struct FrameImages {
     return w == width && h == height && samples == supersample && scale == indirect_scale;
   }
   std::size_t bytes() const;
+  /// Makes what bodies of glass need, where it is not there yet.
+  void want_bodies();
 
  private:
   void make_interpolation();

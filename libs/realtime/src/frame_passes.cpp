@@ -71,20 +71,26 @@ void Renderer::Data::draw_items(GlassLayer layer, gl::DrawState state, const Wan
   const FrameSettings& settings = frame_settings;
   const bool emission = settings.direct && (settings.view == View::lit || settings.view == View::direct);
   scene.begin(false);
+  const bool writes_class = layer == GlassLayer::opaque || layer == GlassLayer::reflecting;
   int surface = -1, textures = -1, glass_programs = -1;
   for (const DrawItem& item : scene.items()) {
     if (!wanted(item)) continue;
     if (item.textures != textures || int{item.glass} != glass_programs) {
       textures = item.textures, glass_programs = item.glass;
-      gl::Program& program = shaders.geometry(textures, item.glass);
+      const bool bent = layer == GlassLayer::bent;
+      gl::Program& program = shaders.geometry(textures, item.glass, bent);
       program.set("emission_shown", emission ? 1 : settings.view == View::albedo ? 2 : 0);
-      if (item.glass) program.set("glass_layer", static_cast<int>(layer));
+      if (item.glass) {
+        program.set("glass_layer", static_cast<int>(layer));
+        program.set("any_bends", int{scene.any_bends()});
+        if (bent) program.set("bent_steps", 32);
+      }
       program.use();
     }
     const int surface_now = layer == GlassLayer::opaque ? item.surface_class : surface_class::full;
     if (surface_now != surface) {
       surface = surface_now;
-      if (layer != GlassLayer::through) state.stencil_write = surface;
+      if (writes_class) state.stencil_write = surface;
       gl::apply(state);
     }
     scene.draw(item, true, counters);
@@ -92,10 +98,27 @@ void Renderer::Data::draw_items(GlassLayer layer, gl::DrawState state, const Wan
   for (unsigned i = 0; i < unit::count; ++i) gl::Sampler::unbind(i);
 }
 
+void Renderer::Data::bend_light() {
+  const auto bends = [](const DrawItem& item) { return item.bends; };
+  images.want_bodies();
+  const gl::Rect full = images.full();
+  gl::bind_framebuffer(images.exits_pass.id(), full);
+  gl::apply({.depth = gl::Depth::test_and_write});
+  gl::clear_depth(full, 0);
+  gl::clear_color_uint(0, 0, 0, 0, 0);
+  draw_items(GlassLayer::exits, {.depth = gl::Depth::test_and_write}, bends);
+  gl::copy_texels({images.color}, {images.behind_glass}, full.width, full.height);
+  images.exits.bind(unit::exits);
+  images.behind_glass.bind(unit::behind_glass);
+  gl::bind_framebuffer(images.bent_pass.id(), full);
+  draw_items(GlassLayer::bent, {.depth = gl::Depth::test}, bends);
+}
+
 void Renderer::Data::draw_glass() {
   const auto is_glass = [](const DrawItem& item) { return item.glass; };
-  gl::bind_framebuffer(images.glass_pass.id(), images.full());
   images.gbuffer1.bind(unit::gbuffer1);
+  if (scene.any_bends()) bend_light();
+  gl::bind_framebuffer(images.glass_pass.id(), images.full());
   draw_items(GlassLayer::through, {.blend = gl::Blend::multiply}, is_glass);
   gl::bind_framebuffer(images.geometry_pass.id(), images.full());
   gl::clear_stencil(surface_class::nothing);

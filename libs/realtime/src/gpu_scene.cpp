@@ -134,13 +134,16 @@ void GpuScene::classify(const std::vector<scene::Material>& materials) {
       classes_.push_back(class_of(m)), glass_.push_back(glass_kind(m));
     classes_.push_back(class_of(plain_material)), glass_.push_back(GlassKind::none);
   }
-  any_full_ = any_glass_ = any_absorbs_ = false;
+  any_full_ = any_glass_ = any_absorbs_ = any_bends_ = false;
   for (DrawItem& item : items_) {
     item.surface_class = classes_[item.material];
     const GlassKind glass = glass_[item.material];
     item.glass = glass != GlassKind::none;
     any_full_ |= item.surface_class == surface_class::full && glass != GlassKind::everywhere;
     any_glass_ |= item.glass;
+    const vec4& kind = materials_[item.material].glass;
+    item.bends = item.glass && kind.y == 0 && kind.z > 1;
+    any_bends_ |= item.bends;
     any_absorbs_ |= item.glass && vec3(materials_[item.material].inside) != vec3(0);
   }
   std::ranges::stable_sort(items_, [](const DrawItem& a, const DrawItem& b) {
@@ -168,7 +171,8 @@ void GpuScene::pose(const std::vector<mat4>& world, std::vector<scene::Bounds>& 
       around.add(item.world.min);
       around.add(item.world.max);
     }
-    instances_[i].middle = around.empty() ? now[3] : vec4(around.center(), 1);
+    const float number = static_cast<float>(i + 1);
+    instances_[i].middle = around.empty() ? vec4(vec3(now[3]), number) : vec4(around.center(), number);
     add_boxes(static_cast<int>(i));
     upload_block(counters, instance_buffer_, instances_[i], i);
   }

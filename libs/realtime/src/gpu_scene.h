@@ -27,6 +27,7 @@ struct DrawItem {
   bool partial;        ///< may be covered in part only
   int textures;        ///< those that its material reads: a bit for each of Shaders::texture_names
   bool glass = false;  ///< light may go through it
+  bool bends = false;  ///< and is bent, as it is a body
 
   /// Whether light may pass some of it.
   bool filters() const { return partial || glass; }
@@ -57,6 +58,7 @@ class GpuScene {
   bool any_glass() const { return any_glass_; }
   /// Whether any body of glass absorbs light on its way through it.
   bool any_absorbs() const { return any_absorbs_; }
+  bool any_bends() const { return any_bends_; }
 
   /// Then draw() what is wanted, in the order of items() for few changes of state. `program`
   /// is the one in use.
@@ -96,7 +98,7 @@ class GpuScene {
   scene::Bounds bounds_;
   float anisotropy_;
   std::size_t bytes_ = 0;
-  bool any_full_ = false, any_glass_ = false, any_absorbs_ = false;
+  bool any_full_ = false, any_glass_ = false, any_absorbs_ = false, any_bends_ = false;
   // Since begin(); below 0: none
   mutable int bound_material_, bound_instance_;
   mutable const MeshArrays* bound_arrays_;

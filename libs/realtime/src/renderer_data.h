@@ -79,6 +79,7 @@ struct Renderer::Data {
   template <class Wanted>
   void draw_items(GlassLayer layer, gl::DrawState state, const Wanted& wanted);
   /// Dims what stands behind glass, and puts the nearest into the G-buffer, for what it reflects.
+  void bend_light();
   void draw_glass();
   void bind_sky_lobes(gl::Program& program);
   void draw_direct() { add_direct(false); }

@@ -38,6 +38,8 @@ constexpr ShaderConstant constants[] = {
     whole("VIEW_DEPTH", View::depth),
     whole("VIEW_SHADOW", View::shadow),
     whole("GLASS_OPAQUE", GlassLayer::opaque),
+    whole("GLASS_EXITS", GlassLayer::exits),
+    whole("GLASS_BENT", GlassLayer::bent),
     whole("GLASS_THROUGH", GlassLayer::through),
     whole("GLASS_REFLECTING", GlassLayer::reflecting),
     // Materials
@@ -82,6 +84,8 @@ constexpr ShaderConstant constants[] = {
     whole("UNIT_CELLS", unit::cells),
     whole("UNIT_SHADOW_IMAGE", unit::shadow_image),
     whole("UNIT_OCCLUSION", unit::occlusion),
+    whole("UNIT_EXITS", unit::exits),
+    whole("UNIT_BEHIND_GLASS", unit::behind_glass),
     whole("UNIT_LIGHT_GLASS", unit::light_glass),
     whole("UNIT_AREA_GLASS", unit::area_glass),
     whole("UNIT_PARALLEL_GLASS", unit::parallel_glass),

@@ -18,9 +18,9 @@ gl::Program& Shaders::compiled(Slot& slot, gl::Program program) {
   return *slot;
 }
 
-gl::Program& Shaders::geometry(int textures, bool glass) {
-  return get(geometry_[textures][glass], "gbuffer.vert", "gbuffer.frag", [&] {
-    std::string defines = define("GLASS", glass);
+gl::Program& Shaders::geometry(int textures, bool glass, bool bent) {
+  return get(geometry_[textures][glass + bent], "gbuffer.vert", "gbuffer.frag", [&] {
+    std::string defines = define("GLASS", glass) + define("BENT", bent);
     for (int i = 0; i < 4; ++i) defines += define(texture_names[i], (textures >> i & 1) != 0);
     return defines;
   });
@@ -93,7 +93,8 @@ gl::Program& Shaders::seen(EmitterKind kind) {
 }
 
 std::string Shaders::compile_all() {
-  for (int textures = 0; textures < 16; ++textures) geometry(textures, false), geometry(textures, true);
+  for (int textures = 0; textures < 16; ++textures)
+    geometry(textures, false), geometry(textures, true), geometry(textures, true, true);
   occlusion(), mark(), view(), resolve(), display(), glass_shadow(), take_gbuffer(), some_places(),
       mend_cracks();
   for (const bool full : {false, true}) {

@@ -28,7 +28,8 @@ class Shaders {
   static constexpr const char* texture_names[] = {"BASE_TEXTURE", "ROUGH_TEXTURE", "EMISSION_TEXTURE",
                                                   "NORMAL_TEXTURE"};
   /// `glass`: with the layers of gbuffer.frag.
-  gl::Program& geometry(int textures, bool glass);
+  /// `bent`: that of GlassLayer::bent, of no other.
+  gl::Program& geometry(int textures, bool glass, bool bent = false);
   /// What shows the inside of a body between two pieces of a wall.
   gl::Program& mend_cracks() { return get(mend_cracks_, "mend_cracks.frag"); }
   gl::Program& shadow(bool alpha);
@@ -79,7 +80,7 @@ class Shaders {
 
   const gl::ShaderFiles* files_;
   std::string warnings_;
-  Slot geometry_[16][2], shadow_[2], depth_bounds_[2], glass_shadow_, direct_[emitter_kinds][2][2][2],
+  Slot geometry_[16][3], shadow_[2], depth_bounds_[2], glass_shadow_, direct_[emitter_kinds][2][2][2],
       mirrored_environment_[2], indirect_[indirect_lookups][2][indirect_outputs], agree_[2], mark_,
       interpolate_[2], occlusion_, method_[method_kinds][2][indirect_outputs], seen_[emitter_kinds], view_,
       resolve_, display_, take_gbuffer_, some_places_, mend_cracks_;

@@ -102,7 +102,8 @@ void MapAtlas::keep(MapAtlas&& before) {
 
 void MapAtlas::copy_kept() {
   const std::unique_ptr<MapAtlas> before = std::move(before_);
-  if (!before || (glass_.id() && !(before->glass_.id() && before->glass_.format() == glass_.format()))) return;
+  if (!before || (glass_.id() && !(before->glass_.id() && before->glass_.format() == glass_.format())))
+    return;
   const auto place = [&](const MapAtlas& atlas, const gl::Texture& texture, int tile) {
     return gl::LayerPlace{texture, atlas.layout_.layer(tile), atlas.layout_.column(tile) * size_,
                           atlas.layout_.row(tile) * size_};

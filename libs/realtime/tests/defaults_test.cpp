@@ -105,7 +105,8 @@ TEST(GpuValues, PassesFindTheirTexturesInUnitsOfTheirOwn) {
   expect_apart({gbuffer0, gbuffer1, albedo_table, light_maps, area_maps, parallel_maps, environment_tiles,
                 environment, depth_bounds, shadow_image});
   expect_apart({gbuffer0, gbuffer1, occlusion, irradiance, glossy, cells});
-  expect_apart({base_texture, rough_texture, emission_texture, normal_texture});
+  expect_apart({gbuffer1, albedo_table, exits, behind_glass, base_texture, rough_texture, emission_texture,
+                normal_texture, transmission_texture});
 }
 
 }  // namespace

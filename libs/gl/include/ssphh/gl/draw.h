@@ -18,9 +18,9 @@ struct DrawState {
   Blend blend = Blend::off;
   Cull cull = Cull::off;
   bool color_write = true;
-  bool lines = false;         ///< draw triangles' edges only
-  int stencil_equal = -1;     ///< only where the stencil has this value; −1: everywhere
-  int stencil_write = -1;     ///< the stencil's new value where the depth test passes; −1: as it was
+  bool lines = false;      ///< draw triangles' edges only
+  int stencil_equal = -1;  ///< only where the stencil has this value; −1: everywhere
+  int stencil_write = -1;  ///< the stencil's new value where the depth test passes; −1: as it was
   int stencil_mark = 0;  ///< bits set where a fragment is drawn and not discarded; stencil_equal ignores them
 };
 

@@ -12,7 +12,8 @@ namespace ssphh::gl {
 class Framebuffer {
  public:
   Framebuffer() = default;
-  /// `depth` may be null, and so may colours: what shaders write there is dropped. Throws Error when the driver refuses the combination.
+  /// `depth` may be null, and so may colours: what shaders write there is dropped. Throws Error when the
+  /// driver refuses the combination.
   Framebuffer(std::span<const Texture* const> colors, const Texture* depth);
   /// One layer of an array, depth or colour, nothing else; of a mipmap level.
   Framebuffer(const Texture& texture, int layer, int level = 0);

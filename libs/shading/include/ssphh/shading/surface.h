@@ -47,8 +47,8 @@ float coverage_at(const scene::Scene& scene, const scene::Mesh& mesh, int materi
 /// estimate.
 vec3 surface_albedo(const Surface& surface, float cos_o);
 
-/// What a body of glass absorbs [1/m]: after `attenuation_distance` light has its `attenuation_color`. 0 for a
-/// sheet.
+/// What a body of glass absorbs [1/m]: after `attenuation_distance` light has its `attenuation_color`. 0 for
+/// a sheet.
 vec3 absorption_of(const scene::Material& material);
 
 /// Surface::glass alone, as seen from outside.
