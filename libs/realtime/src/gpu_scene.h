@@ -58,6 +58,7 @@ class GpuScene {
   bool any_glass() const { return any_glass_; }
   /// Whether any body of glass absorbs light on its way through it.
   bool any_absorbs() const { return any_absorbs_; }
+  /// Whether any shows what is behind it elsewhere.
   bool any_bends() const { return any_bends_; }
 
   /// Then draw() what is wanted, in the order of items() for few changes of state. `program`

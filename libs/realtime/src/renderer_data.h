@@ -78,8 +78,9 @@ struct Renderer::Data {
   /// Items of the scene as one layer has them; `wanted(item)` chooses, `state` says how.
   template <class Wanted>
   void draw_items(GlassLayer layer, gl::DrawState state, const Wanted& wanted);
-  /// Dims what stands behind glass, and puts the nearest into the G-buffer, for what it reflects.
+  /// Draws in the nearest bodies of glass what the picture shows behind them.
   void bend_light();
+  /// Dims what stands behind glass, and puts the nearest into the G-buffer, for what it reflects.
   void draw_glass();
   void bind_sky_lobes(gl::Program& program);
   void draw_direct() { add_direct(false); }

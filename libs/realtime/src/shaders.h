@@ -27,8 +27,7 @@ class Shaders {
   /// A bit for each texture that materials may have.
   static constexpr const char* texture_names[] = {"BASE_TEXTURE", "ROUGH_TEXTURE", "EMISSION_TEXTURE",
                                                   "NORMAL_TEXTURE"};
-  /// `glass`: with the layers of gbuffer.frag.
-  /// `bent`: that of GlassLayer::bent, of no other.
+  /// `glass`: with the layers of gbuffer.frag; `bent`: of GlassLayer::bent alone.
   gl::Program& geometry(int textures, bool glass, bool bent = false);
   /// What shows the inside of a body between two pieces of a wall.
   gl::Program& mend_cracks() { return get(mend_cracks_, "mend_cracks.frag"); }
