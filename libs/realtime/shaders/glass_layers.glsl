@@ -40,9 +40,11 @@ vec3 light_through_body(vec3 n, vec3 wo, vec3 tint) {
   vec3 from = here + way * inside;
   float behind = opaque_depth(pixel_of(vec4(from, 1))), start = depth + way * deeper;
   bool filled = behind != 0 && behind < start;  // by what stands in it
-  if (filled) way *= (behind - depth) / max(start - depth, 1e-6);
-  vec3 left = glass_shares(dot(n, wo), tint).transmitted * exp(-max(way, 0.0) * material.inside.rgb);
-  if (!filled) {
+  vec3 left = glass_shares(dot(n, wo), tint).transmitted;
+  if (filled) {
+    from = here, start = depth;
+    left /= material.glass.z * material.glass.z;  // radiance spreads where it leaves, and never entered
+  } else {
     vec3 inward = oct_decode(unpackSnorm2x16(leaves.y));
     inward = dot(inward, inside) > 0 ? -inward : inward;
     goes = refract(inside, inward, material.glass.z);
@@ -52,7 +54,8 @@ vec3 light_through_body(vec3 n, vec3 wo, vec3 tint) {
     left *= glass_shares(turned ? 1 : -dot(goes, inward), tint).transmitted;
   }
   // The first step that takes it from before what the picture shows to behind that
-  float ahead = dot(goes, forward), t = 0, before = 0, after = -1, step_length = 0.02 * abs(start);
+  float ahead = dot(goes, forward), t = 0, before = 0, after = -1;
+  float step_length = filled ? way / 12 : 0.02 * abs(start);
   bool in_front = true;
   for (int i = 0; i < bent_steps && after < 0; ++i, step_length *= 1.2) {
     t += step_length;
@@ -68,6 +71,8 @@ vec3 light_through_body(vec3 n, vec3 wo, vec3 tint) {
     before = short_of_it ? middle : before;
     after = short_of_it ? after : middle;
   }
+  if (filled && after > 0) way = after;
+  left *= exp(-max(way, 0.0) * material.inside.rgb);
   ivec2 seen = pixel_of(after > 0 ? vec4(from + after * goes, 1) : vec4(goes, 0));
   return left * texelFetch(behind_glass, seen, 0).rgb;
 }
