@@ -39,7 +39,8 @@ vec3 light_through_body(vec3 n, vec3 wo, vec3 tint) {
   }
   vec3 from = here + way * inside;
   float behind = opaque_depth(pixel_of(vec4(from, 1))), start = depth + way * deeper;
-  bool filled = behind != 0 && behind < start;  // by what stands in it
+  // By what stands in it, not by its ground or by what is before it
+  bool filled = behind > depth && behind - depth < 0.995 * (start - depth);
   vec3 left = glass_shares(dot(n, wo), tint).transmitted;
   if (filled) {
     from = here, start = depth;
