@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -51,10 +50,6 @@ int run(int argc, char** argv) {
 
   std::vector<std::string> words(argv + 1, argv + argc);
   if (words.empty()) words.emplace_back("--help");
-  if (!words.empty() && !words[0].starts_with('-') && std::ranges::count(app.commands(), words[0]) == 0) {
-    log(LogLevel::error, fmt::format("no command '{}'; see ssphh --help", words[0]));
-    return usage;
-  }
   try {
     if (!words[0].starts_with('-')) {
       context.settings = read_settings(words, line.settable());
@@ -62,8 +57,12 @@ int run(int argc, char** argv) {
     }
     line.parse(words);
   } catch (const ParsingEnded& ended) {
-    std::fputs(ended.text.c_str(), ended.wrong_usage ? stderr : stdout);
-    return ended.wrong_usage ? usage : success;
+    if (!ended.help.empty()) {
+      log(LogLevel::error, fmt::format("{} (see {})", ended.what(), ended.help));
+      return usage;
+    }
+    std::fputs(ended.what(), stdout);
+    return success;
   } catch (const Error& e) {
     log(LogLevel::error, e.what());
     return usage;

@@ -9,6 +9,9 @@
 #include <sstream>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <ssphh/core/nearest_word.h>
 
 #include "options/settings.h"
 
@@ -42,6 +45,40 @@ void each_settable(CLI::App& app, const Visit& visit) {
   for (CLI::App* command : app.get_subcommands({})) each_settable(*command, visit);
   for (CLI::Option* option : app.get_options())
     if (option->get_configurable() && !option->get_lnames().empty()) visit(*option);
+}
+
+/// The command that a line chose, and how it is called.
+std::pair<const CLI::App*, std::string> chosen_command(const CLI::App& root) {
+  std::pair<const CLI::App*, std::string> chosen{&root, "ssphh"};
+  while (!chosen.first->get_subcommands().empty()) {
+    chosen.first = chosen.first->get_subcommands().front();
+    chosen.second += " " + chosen.first->get_name();
+  }
+  return chosen;
+}
+
+/// Words that nothing takes come before what is missing: a mistyped option is both.
+std::string what_is_wrong(const CLI::App& command, const CLI::ParseError& error,
+                          const std::vector<std::string>& left) {
+  std::vector<std::string> commands;
+  for (const CLI::App* one : command.get_subcommands({})) commands.push_back(one->get_name());
+  if (left.empty() && error.get_name() == "RequiredError" && !commands.empty())
+    return fmt::format("a command is missing: {}", fmt::join(commands, ", "));
+  if (left.empty()) return error.what();
+  const auto is_option = [](const std::string& word) { return word.starts_with('-'); };
+  auto wrong = std::ranges::find_if(left, is_option);
+  std::string what = "no option ";
+  std::vector<std::string> known;
+  if (!commands.empty() && !is_option(left.front())) {
+    wrong = left.begin(), what = "no command ", known = commands;
+  } else if (wrong != left.end()) {
+    for (const CLI::Option* one : command.get_options())
+      for (const std::string& name : one->get_lnames()) known.push_back("--" + name);
+  } else {
+    wrong = left.begin(), what = "no place for ";
+  }
+  const std::string word = wrong->substr(0, wrong->find('=')), near = nearest_word(word, known);
+  return what + word + (near.empty() ? "" : "; did you mean " + near + "?");
 }
 
 }  // namespace
@@ -227,7 +264,8 @@ void Command::when_chosen(std::function<void()> action) const {
   app_->callback(std::move(action));
 }
 
-CommandLine::CommandLine(const std::string& description) : app_(std::make_unique<CLI::App>(description)) {}
+CommandLine::CommandLine(const std::string& description)
+    : app_(std::make_unique<CLI::App>(description, "ssphh")) {}
 
 CommandLine::~CommandLine() = default;
 
@@ -267,7 +305,9 @@ void CommandLine::parse(std::vector<std::string> words) const {
   } catch (const CLI::ParseError& e) {
     std::ostringstream out, err;
     const bool wrong = app_->exit(e, out, err) != 0;
-    throw ParsingEnded(e.what(), wrong, wrong ? err.str() : out.str());
+    if (!wrong) throw ParsingEnded(out.str());
+    const auto& [command, called] = chosen_command(*app_);
+    throw ParsingEnded(what_is_wrong(*command, e, app_->remaining(true)), called + " --help");
   }
 }
 

@@ -118,11 +118,11 @@ class Command {
 
 /// Thrown where a line names no command that could run: wrong usage, or help or the version was asked for.
 struct ParsingEnded : std::runtime_error {
-  ParsingEnded(const std::string& what, bool wrong, std::string all)
-      : std::runtime_error(what), wrong_usage(wrong), text(std::move(all)) {}
+  explicit ParsingEnded(const std::string& asked_for) : std::runtime_error(asked_for) {}
+  ParsingEnded(const std::string& wrong, std::string help_command)
+      : std::runtime_error(wrong), help(std::move(help_command)) {}
 
-  bool wrong_usage;
-  std::string text;  ///< for stderr when usage was wrong, else for stdout
+  std::string help;  ///< command that tells what would be right; empty: what() is the text that was asked for
 };
 
 class CommandLine {
