@@ -34,7 +34,7 @@ void write(const std::filesystem::path& path, const std::string& content) {
 const std::vector<std::string> small = {"--width", "16", "--height", "9", "--spp", "1"};
 
 TEST(BadInput, WrongUsageIsExitCode2) {
-  expect_failure({"probe"}, "subcommand", 2);
+  expect_failure({"probe"}, "a command is missing: info, preview", 2);
   expect_failure({"nonsense"}, "nonsense", 2);
   expect_failure({"render", "builtin:box"}, "--output", 2);
   expect_failure({"render", "builtin:box", "-o", "x.exr", "--spp", "0"}, "--spp", 2);
