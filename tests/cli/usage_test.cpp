@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-
 #include "commands/command.h"
 
 namespace ssphh::app {
@@ -27,9 +26,11 @@ TEST(Usage, AMistypedWordIsToldWithWhatIsNearIt) {
   EXPECT_EQ(said({"probe", "infoo", "a.sphl"}), "no command infoo; did you mean info? | ssphh probe --help");
   EXPECT_EQ(said({"render", "builtin:cornell", "--widht", "4"}),
             "no option --widht; did you mean --width? | ssphh render --help");
-  EXPECT_EQ(said({"probe", "info", "a.sphl", "--tolerence=4"}), "no option --tolerence | ssphh probe info --help");
+  EXPECT_EQ(said({"probe", "info", "a.sphl", "--tolerence=4"}),
+            "no option --tolerence | ssphh probe info --help");
   EXPECT_EQ(said({"render", "builtin:cornell", "-q"}), "no option -q | ssphh render --help");
-  EXPECT_EQ(said({"bake", "builtin:cornell", "more", "-o", "a.sphl"}), "no place for more | ssphh bake --help");
+  EXPECT_EQ(said({"bake", "builtin:cornell", "more", "-o", "a.sphl"}),
+            "no place for more | ssphh bake --help");
 }
 
 TEST(Usage, WhatIsMissingIsNamed) {

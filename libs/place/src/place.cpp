@@ -160,6 +160,33 @@ Attempt search(const rays::TransportSource& source, const PlaceParams& params, c
   return std::move(*best);
 }
 
+Attempt place_in(const rays::TransportSource& source, const PlaceParams& params, const Regions& regions,
+                 float back_limit, const Control& control) {
+  if (params.spacing > 0) {
+    std::optional<Attempt> found = attempt(source, params, regions, params.spacing, back_limit, control);
+    if (!found) {
+      fail(fmt::format("a spacing of {:g} m gives more than {} probes", params.spacing, params.max_probes),
+           "use a larger spacing, or --probes N for a number of probes");
+    }
+    return std::move(*found);
+  }
+  std::size_t low = static_cast<std::size_t>(params.count), high = low + low / 5;
+  if (params.count == 0) {
+    const std::size_t shares = region_shares(regions), rest = regions.open_rest ? sparse_places : 0;
+    const auto most = static_cast<std::size_t>(params.max_probes);
+    low = std::min(100 * shares + rest, most);
+    high = std::min(200 * shares + rest, most);
+  }
+  return search(source, params, regions, low, high, back_limit, control);
+}
+
+/// The box of a body that fills it, as a crate does, and as much again for what is around the body.
+scene::Bounds around(scene::Bounds box) {
+  const float margin = 0.5f * max_component(box.max - box.min);
+  box.min -= margin, box.max += margin;
+  return box;
+}
+
 Placement finish(const rays::TransportSource& source, Attempt&& a) {
   Placement placement;
   placement.origin = a.lattice.origin;
@@ -215,39 +242,26 @@ Placement place_probes(const rays::TransportSource& source, const PlaceParams& p
                        const Control& control) {
   check(params);
   lattice_box(source, 0);  // throws where nothing stands still
-  const Regions regions = detail_regions(source, control);
   const float back_limit = calibrated_back_limit(source, params.interest);
-  std::optional<Attempt> chosen;
-  if (params.spacing > 0) {
-    chosen = attempt(source, params, regions, params.spacing, back_limit, control);
-    if (!chosen) {
-      fail(fmt::format("a spacing of {:g} m gives more than {} probes", params.spacing, params.max_probes),
-           "use a larger spacing, or --probes N for a number of probes");
-    }
-  } else {
-    std::size_t low = static_cast<std::size_t>(params.count), high = low + low / 5;
-    if (params.count == 0) {
-      const std::size_t shares = region_shares(regions), rest = regions.open_rest ? sparse_places : 0;
-      const auto most = static_cast<std::size_t>(params.max_probes);
-      low = std::min(100 * shares + rest, most);
-      high = std::min(200 * shares + rest, most);
-    }
-    chosen = search(source, params, regions, low, high, back_limit, control);
-  }
-  if (chosen->drafts.empty()) {
+  const auto placed_in = [&](const Regions& regions) {
+    return place_in(source, params, regions, back_limit, control);
+  };
+  Attempt chosen = placed_in(detail_regions(source, control));
+  if (chosen.drafts.empty()) chosen = placed_in({{around(source.part_bounds(0))}, false});
+  if (chosen.drafts.empty()) {
     fail("no place is left that is neither inside a body nor too close to a surface",
          "use a smaller spacing, or place SPHLs by hand");
   }
   if (params.count > 0) {
     const auto count = static_cast<std::size_t>(params.count);
-    if (chosen->drafts.size() < count) {
-      fail(fmt::format("only {} probes of {} find a place", chosen->drafts.size(), count),
+    if (chosen.drafts.size() < count) {
+      fail(fmt::format("only {} probes of {} find a place", chosen.drafts.size(), count),
            params.spacing > 0 ? "use a smaller spacing" : "ask for fewer");
     }
-    chosen->counts.surplus = chosen->drafts.size() - count;
-    filter(chosen->drafts, chosen->edges, most_spread(chosen->drafts, chosen->edges, count));
+    chosen.counts.surplus = chosen.drafts.size() - count;
+    filter(chosen.drafts, chosen.edges, most_spread(chosen.drafts, chosen.edges, count));
   }
-  return finish(source, std::move(*chosen));
+  return finish(source, std::move(chosen));
 }
 
 }  // namespace ssphh::place

@@ -116,6 +116,30 @@ TEST(PlaceRules, TheSceneGivesItsSphlsCamerasAndLampsThatHaveAPlace) {
   EXPECT_EQ(params.interest, (std::vector<vec3>{{0, 2, 0}, {2, 2, 0}, {4, 2, 0}}));
 }
 
+/// A crate fills its own box: all places in there are inside of it.
+TEST(PlaceRules, AroundABodyThatFillsItsBoxProbesStandOutside) {
+  const scene::Bounds crate{{-1, 0, -0.5f}, {1, 1, 0.5f}};
+  for (const float scale : {1.0f, 1e-3f, 1e4f}) {
+    const TriangleSource source(scene_of({scene::make_box(scale * crate.min, scale * crate.max)}));
+    for (const auto& [spacing, count] : {std::pair(0.0f, 0), {0.0f, 8}, {0.5f * scale, 0}}) {
+      PlaceParams params;
+      params.spacing = spacing, params.count = count;
+      const Placement placement = place_probes(source, params);
+      EXPECT_TRUE(count == 0 || placement.probes.size() == 8) << placement.probes.size();
+      vec3 sides(0), opposite(0);
+      for (const PlacedProbe& probe : placement.probes) {
+        const vec3 x = probe.position / scale;
+        const vec3 off = glm::max(glm::max(crate.min - x, x - crate.max), vec3(0));
+        EXPECT_GT(glm::length(off), 0) << probe.name;
+        EXPECT_LT(glm::length(off), 1.8f) << probe.name;
+        sides += vec3(glm::greaterThan(x, crate.max)), opposite += vec3(glm::lessThan(x, crate.min));
+      }
+      if (count > 0) continue;
+      EXPECT_TRUE(glm::all(glm::greaterThan(glm::min(sides, opposite), vec3(0)))) << spacing;
+    }
+  }
+}
+
 TEST(PlaceRules, LimitsAreNamedWithWhatWasGiven) {
   const TriangleSource source(room(vec3(2)));
   const auto said = [&](const std::function<void(PlaceParams&)>& change) {

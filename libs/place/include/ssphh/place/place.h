@@ -92,7 +92,7 @@ struct Placement {
 
 /// The same input gives the same placement, whatever the number of threads. Throws Error for parameters out
 /// of range, for a scene without surfaces that stand still, for more than `max_probes`, when fewer than
-/// `count` fit, and when no place is left.
+/// `count` fit, and when no place is left, nor around the surfaces.
 Placement place_probes(const rays::TransportSource& source, const PlaceParams& params,
                        const Control& control = {});
 
