@@ -137,6 +137,33 @@ class LookupPixels : public WithGl {
   }
 };
 
+/// Drawing a leaf into shadow maps takes its texture's sampler, of mipmaps and repeat, to a unit where lists
+/// of records are: the first frame, which draws those maps, looked nothing up there.
+TEST_F(LookupPixels, TexturesInShadowMapsDoNotHideRecords) {
+  scene::Scene scene = room(matte(vec3(1)));
+  scene::Texture& leaf = scene.textures.emplace_back();
+  leaf.name = "leaf", leaf.width = leaf.height = 2;
+  for (int i = 0; i < 4; ++i)
+    leaf.rgba.insert(leaf.rgba.end(), {80, 170, 90, i == 0 ? std::uint8_t{0} : std::uint8_t{255}});
+  scene.materials.push_back(matte(vec3(1)));
+  scene.materials.back().alpha_mode = scene::AlphaMode::mask;
+  scene.materials.back().base_color_texture.texture = 0;
+  add_mesh(scene, scene::make_quad({0.5f, 0.5f, 0.5f}, {0.3f, 0, 0}, {0, 0.3f, 0}), 6);
+  const trace::PathTracer tracer(scene);
+  probes::ProbeSet probes = made_up_probes(grid());
+  probes.surface = made_up_records(made_up_fit(scene, probes, 800).points, probes.light_groups);
+  realtime::Renderer renderer(gl(), scene);
+  renderer.set_probes(probes);
+  set_records(renderer, scene, *probes.surface, tracer);
+  const auto picture = [&] {
+    return draw(renderer, scene, "", LookupMethod::irradiance, WeightMethod::surface);
+  };
+  const image::Image first = picture();
+  EXPECT_GT(renderer.stats().shadow_maps_drawn, 0);
+  EXPECT_EQ(first.pixels, picture().pixels);
+  EXPECT_EQ(renderer.stats().shadow_maps_drawn, 0);
+}
+
 /// Bilinear interpolation in an octahedral tile of 24 texels, pi / 24 rad apart or 1.6 times as much: h² / 8
 /// of the curvature, up to l (l + 1) of band l. Bands of made-up light are 0.28, 0.25 √(2l + 1) at most of a
 /// mean of 0.5 to 2: irradiance's curvature hardly exceeds its value, 0.55 %. And halves and 10 bits of a

@@ -129,7 +129,7 @@ void Renderer::Data::make_room(const FrameSettings& settings, const Target& targ
   stats.shadow_maps_waiting = stats.shadow_maps_drawn = 0;
   now_ms.fill({});
   gl::apply_conventions();
-  for (unsigned i = 0; i < unit::count; ++i) gl::Sampler::unbind(i);
+  unbind_samplers();
 
   const int samples = std::clamp(settings.supersample, 1, 4),
             scale = std::clamp(settings.indirect_scale, 1, 8);
@@ -145,7 +145,7 @@ bool Renderer::step() {
   // The host may have drawn something of its own since the piece before.
   if (d.in_pieces) {
     gl::apply_conventions();
-    for (unsigned i = 0; i < unit::count; ++i) gl::Sampler::unbind(i);
+    unbind_samplers();
     d.images.gbuffer0.bind(unit::gbuffer0);
     d.images.gbuffer1.bind(unit::gbuffer1);
   }

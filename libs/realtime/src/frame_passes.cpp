@@ -38,6 +38,7 @@ void Renderer::Data::draw_shadows() {
   left -= of_probes;
   int drawn_now = lamps + of_probes;
   if (method) drawn_now += method->update_maps(scene, opaque, alpha, left, waiting, counters);
+  unbind_samplers();
   stats.shadow_maps_drawn += drawn_now;
   shadow_maps_left -= drawn_now;
   more_shadows = waiting > 0 && drawn_now > 0 && shadow_maps_left > 0;
@@ -95,7 +96,7 @@ void Renderer::Data::draw_items(GlassLayer layer, gl::DrawState state, const Wan
     }
     scene.draw(item, true, counters);
   }
-  for (unsigned i = 0; i < unit::count; ++i) gl::Sampler::unbind(i);
+  unbind_samplers();
 }
 
 void Renderer::Data::bend_light() {

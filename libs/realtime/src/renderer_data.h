@@ -27,6 +27,11 @@ enum Pass { shadows, geometry, direct, indirect, seen, glass, resolve, display, 
 inline constexpr const char* pass_names[pass_count] = {"shadows", "geometry", "direct",  "indirect",
                                                        "seen",    "glass",    "resolve", "display"};
 
+/// An integer texture under a sampler that another pass left there reads as 0.
+inline void unbind_samplers() {
+  for (unsigned i = 0; i < unit::count; ++i) gl::Sampler::unbind(i);
+}
+
 struct Renderer::Data {
   Data(gl::Context& context, const scene::Scene& scene, const RendererParams& params, float time,
        std::span<const MeshBuffers> engines);
