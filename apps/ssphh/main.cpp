@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -50,6 +51,7 @@ int run(int argc, char** argv) {
 
   std::vector<std::string> words(argv + 1, argv + argc);
   if (words.empty()) words.emplace_back("--help");
+  if (std::ranges::count(words, "--log-json") > 0) log_as_json();  // what is wrong with the line, too
   try {
     if (!words[0].starts_with('-')) {
       context.settings = read_settings(words, line.settable());

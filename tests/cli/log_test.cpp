@@ -57,6 +57,9 @@ TEST(Log, WithLogJsonAllOfStderrIsObjects) {
       "render", "builtin:furnace", "--width", "4",          "--height", "2", "--spp",
       "1",      "--log-json",      "-o",      dir / "a.exr"};
   EXPECT_THAT(levels_of(test::run_tool(render)), testing::ElementsAre("render")) << "progress, too";
+  EXPECT_THAT(levels_of(test::run_tool({"render", "--log-json", "--widht", "8"})),
+              testing::ElementsAre("error"))
+      << "wrong usage";
   EXPECT_THAT(levels_of(test::run_tool({"render", dir / "none.glb", "--log-json", "-o", dir / "a.exr"})),
               testing::ElementsAre("error"));
   write_file(dir / "empty.toml", "");

@@ -22,15 +22,21 @@ std::string said(const std::vector<std::string>& words) {
 }
 
 TEST(Usage, AMistypedWordIsToldWithWhatIsNearIt) {
-  EXPECT_EQ(said({"rendr", "a.glb"}), "no command rendr; did you mean render? | ssphh --help");
-  EXPECT_EQ(said({"probe", "infoo", "a.sphl"}), "no command infoo; did you mean info? | ssphh probe --help");
+  EXPECT_EQ(said({"rendr", "a.glb"}), "no command 'rendr'; did you mean render? | ssphh --help");
+  EXPECT_EQ(said({"probe", "infoo", "a.sphl"}),
+            "no command 'infoo'; did you mean info? | ssphh probe --help");
   EXPECT_EQ(said({"render", "builtin:cornell", "--widht", "4"}),
             "no option --widht; did you mean --width? | ssphh render --help");
   EXPECT_EQ(said({"probe", "info", "a.sphl", "--tolerence=4"}),
             "no option --tolerence | ssphh probe info --help");
   EXPECT_EQ(said({"render", "builtin:cornell", "-q"}), "no option -q | ssphh render --help");
   EXPECT_EQ(said({"bake", "builtin:cornell", "more", "-o", "a.sphl"}),
-            "no place for more | ssphh bake --help");
+            "no place for 'more' | ssphh bake --help");
+}
+
+TEST(Usage, AnOptionBeforeItsCommandIsNoMistypedOne) {
+  EXPECT_EQ(said({"--log-json", "render", "builtin:cornell", "-o", "a.exr"}),
+            "--log-json stands before its command | ssphh render --help");
 }
 
 TEST(Usage, WhatIsMissingIsNamed) {

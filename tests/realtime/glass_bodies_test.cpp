@@ -175,20 +175,14 @@ TEST_F(GlassPixels, BodiesBendWhatIsBehindThem) {
   s.cameras.emplace_back().node = static_cast<int>(s.nodes.size()) - 1;
   s.cameras[0].yfov = 0.6f;
   scene::validate(s);
-  trace::RenderParams params;
-  params.width = glass_size.width, params.height = glass_size.height;
-  params.camera = scene::camera_pose(s, "");
-  params.path = {.max_depth = 3, .passes = 1, .spp = 64, .seed = 1};
-  trace::RenderState state;
-  trace::PathTracer(s).render(params, state);
-  const image::Image traced = trace::resolve(state.color, 1), drawn = draw(s);
+  const image::Image truth = traced(s, 3), drawn = draw(s);
   s.materials[1].ior = 1;
   const image::Image straight = draw(s);
   const auto off = [&](const image::Image& picture) {
     double sum = 0, all = 0;
-    for (std::size_t i = 0; i < traced.pixels.size(); ++i) {
-      sum += static_cast<double>(std::abs(picture.pixels[i] - traced.pixels[i]));
-      all += static_cast<double>(traced.pixels[i]);
+    for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+      sum += static_cast<double>(std::abs(picture.pixels[i] - truth.pixels[i]));
+      all += static_cast<double>(truth.pixels[i]);
     }
     return sum / all;
   };
@@ -196,7 +190,7 @@ TEST_F(GlassPixels, BodiesBendWhatIsBehindThem) {
   EXPECT_GT(off(straight), 0.08);
   for (const auto& [x, y] : {std::pair(24, 16), {28, 17}, {26, 20}, {23, 15}, {30, 13}})
     for (int c = 0; c < 3; ++c)
-      EXPECT_NEAR(drawn.at(x, y)[c], traced.at(x, y)[c], 0.1f * traced.at(x, y)[c]) << x << " " << y;
+      EXPECT_NEAR(drawn.at(x, y)[c], truth.at(x, y)[c], 0.1f * truth.at(x, y)[c]) << x << " " << y;
 }
 
 TEST_F(GlassPixels, WhatGlowsInABodyIsWhereAndAsBrightAsItIsTraced) {
@@ -215,18 +209,12 @@ TEST_F(GlassPixels, WhatGlowsInABodyIsWhereAndAsBrightAsItIsTraced) {
   s.cameras.emplace_back().node = static_cast<int>(s.nodes.size()) - 1;
   s.cameras[0].yfov = 0.7f;
   scene::validate(s);
-  trace::RenderParams params;
-  params.width = glass_size.width, params.height = glass_size.height;
-  params.camera = scene::camera_pose(s, "");
-  params.path = {.max_depth = 2, .passes = 1, .spp = 64, .seed = 1};
-  trace::RenderState state;
-  trace::PathTracer(s).render(params, state);
-  const image::Image traced = trace::resolve(state.color, 1), drawn = draw(s);
+  const image::Image truth = traced(s, 2), drawn = draw(s);
   std::size_t glows = 0, off = 0;
-  for (std::size_t i = 0; i < traced.pixels.size(); ++i) {
-    if (traced.pixels[i] > 0.3f) {
+  for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+    if (truth.pixels[i] > 0.3f) {
       ++glows;
-      off += std::abs(drawn.pixels[i] - traced.pixels[i]) > 0.06f * traced.pixels[i];
+      off += std::abs(drawn.pixels[i] - truth.pixels[i]) > 0.06f * truth.pixels[i];
     } else {
       off += drawn.pixels[i] > 0.3f;
     }

@@ -39,6 +39,17 @@ inline scene::Scene before_a_wall(const std::vector<scene::Material>& glass) {
   return s;
 }
 
+/// Path traced up to so many scattering events.
+inline image::Image traced(const scene::Scene& scene, int max_depth) {
+  trace::RenderParams params;
+  params.width = glass_size.width, params.height = glass_size.height;
+  params.camera = scene::camera_pose(scene, "");
+  params.path = {.max_depth = max_depth, .passes = 1, .spp = 64, .seed = 1};
+  trace::RenderState state;
+  trace::PathTracer(scene).render(params, state);
+  return trace::resolve(state.color, 1);
+}
+
 class GlassPixels : public WithGl {
  protected:
   image::Image draw(const scene::Scene& scene) {

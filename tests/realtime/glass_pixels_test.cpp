@@ -103,13 +103,7 @@ TEST_F(GlassPixels, LightOfEveryKindOfLampIsTintedAsItIsTraced) {
     vec3 sums[2];
     for (const bool covered : {false, true}) {
       const scene::Scene s = under_a_pane(lamp, covered);
-      trace::RenderParams params;
-      params.width = glass_size.width, params.height = glass_size.height;
-      params.camera = scene::camera_pose(s, "");
-      params.path = {.max_depth = 1, .passes = 1, .spp = 64, .seed = 1};
-      trace::RenderState state;
-      trace::PathTracer(s).render(params, state);
-      sums[covered] = sum_of(trace::resolve(state.color, 1));
+      sums[covered] = sum_of(traced(s, 1));
     }
     return sums[1] / sums[0];
   };

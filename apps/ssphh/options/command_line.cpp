@@ -57,28 +57,30 @@ std::pair<const CLI::App*, std::string> chosen_command(const CLI::App& root) {
   return chosen;
 }
 
+std::string with_hint(const std::string& what, const std::string& word,
+                      const std::vector<std::string>& known) {
+  const std::string near = nearest_word(word, known);
+  return what + (near.empty() ? "" : "; did you mean " + near + "?");
+}
+
 /// Words that nothing takes come before what is missing: a mistyped option is both.
 std::string what_is_wrong(const CLI::App& command, const CLI::ParseError& error,
                           const std::vector<std::string>& left) {
-  std::vector<std::string> commands;
+  std::vector<std::string> commands, options;
   for (const CLI::App* one : command.get_subcommands({})) commands.push_back(one->get_name());
+  for (const CLI::Option* one : command.get_options())
+    for (const std::string& name : one->get_lnames()) options.push_back("--" + name);
+  const auto is_option = [](const std::string& word) { return word.starts_with('-'); };
   if (left.empty() && error.get_name() == "RequiredError" && !commands.empty())
     return fmt::format("a command is missing: {}", fmt::join(commands, ", "));
   if (left.empty()) return error.what();
-  const auto is_option = [](const std::string& word) { return word.starts_with('-'); };
-  auto wrong = std::ranges::find_if(left, is_option);
-  std::string what = "no option ";
-  std::vector<std::string> known;
-  if (!commands.empty() && !is_option(left.front())) {
-    wrong = left.begin(), what = "no command ", known = commands;
-  } else if (wrong != left.end()) {
-    for (const CLI::Option* one : command.get_options())
-      for (const std::string& name : one->get_lnames()) known.push_back("--" + name);
-  } else {
-    wrong = left.begin(), what = "no place for ";
-  }
-  const std::string word = wrong->substr(0, wrong->find('=')), near = nearest_word(word, known);
-  return what + word + (near.empty() ? "" : "; did you mean " + near + "?");
+  if (!commands.empty() && !is_option(left.front()))
+    return with_hint(fmt::format("no command '{}'", left.front()), left.front(), commands);
+  const auto wrong = std::ranges::find_if(left, is_option);
+  if (wrong == left.end()) return fmt::format("no place for '{}'", left.front());
+  const std::string name = wrong->substr(0, wrong->find('='));
+  if (std::ranges::count(options, name) > 0) return name + " stands before its command";
+  return with_hint("no option " + name, name, options);
 }
 
 }  // namespace

@@ -119,23 +119,28 @@ TEST(PlaceRules, TheSceneGivesItsSphlsCamerasAndLampsThatHaveAPlace) {
 /// A crate fills its own box: all places in there are inside of it.
 TEST(PlaceRules, AroundABodyThatFillsItsBoxProbesStandOutside) {
   const scene::Bounds crate{{-1, 0, -0.5f}, {1, 1, 0.5f}};
-  for (const float scale : {1.0f, 1e-3f, 1e4f}) {
-    const TriangleSource source(scene_of({scene::make_box(scale * crate.min, scale * crate.max)}));
-    for (const auto& [spacing, count] : {std::pair(0.0f, 0), {0.0f, 8}, {0.5f * scale, 0}}) {
-      PlaceParams params;
-      params.spacing = spacing, params.count = count;
-      const Placement placement = place_probes(source, params);
-      EXPECT_TRUE(count == 0 || placement.probes.size() == 8) << placement.probes.size();
-      vec3 sides(0), opposite(0);
-      for (const PlacedProbe& probe : placement.probes) {
-        const vec3 x = probe.position / scale;
-        const vec3 off = glm::max(glm::max(crate.min - x, x - crate.max), vec3(0));
-        EXPECT_GT(glm::length(off), 0) << probe.name;
-        EXPECT_LT(glm::length(off), 1.8f) << probe.name;
-        sides += vec3(glm::greaterThan(x, crate.max)), opposite += vec3(glm::lessThan(x, crate.min));
-      }
-      if (count > 0) continue;
-      EXPECT_TRUE(glm::all(glm::greaterThan(glm::min(sides, opposite), vec3(0)))) << spacing;
+  struct Case {
+    float scale, spacing;
+    int count;
+  };
+  for (const Case& c : {Case{1, 0, 0}, {1, 0, 8}, {1e-3f, 0.5f, 0}, {1e4f, 0.5f, 0}}) {
+    SCOPED_TRACE(testing::Message() << c.scale << " " << c.spacing << " " << c.count);
+    const TriangleSource source(scene_of({scene::make_box(c.scale * crate.min, c.scale * crate.max)}));
+    PlaceParams params;
+    params.spacing = c.scale * c.spacing, params.count = c.count;
+    const Placement placement = place_probes(source, params);
+    vec3 beyond(0), before(0);  // how many, along each axis
+    for (const PlacedProbe& probe : placement.probes) {
+      const vec3 x = probe.position / c.scale;
+      const float off = glm::distance(x, glm::clamp(x, crate.min, crate.max));
+      EXPECT_GT(off, 0) << probe.name;
+      EXPECT_LT(off, std::sqrt(3.0f)) << "half the longest side is added on each axis: " << probe.name;
+      beyond += vec3(glm::greaterThan(x, crate.max)), before += vec3(glm::lessThan(x, crate.min));
+    }
+    if (c.count > 0) {
+      EXPECT_EQ(placement.probes.size(), static_cast<std::size_t>(c.count));
+    } else {
+      EXPECT_TRUE(glm::all(glm::greaterThan(glm::min(beyond, before), vec3(0))));
     }
   }
 }
