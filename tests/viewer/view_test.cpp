@@ -256,6 +256,16 @@ std::vector<pid_t> workers_of(pid_t parent) {
   return workers;
 }
 
+/// Polls until a process has written `text` to its log, or a minute has passed.
+bool wait_for_log(pid_t process, const std::string& text) {
+  for (int i = 0; i < 6000; ++i) {
+    std::ifstream log(fmt::format("/proc/{}/fd/2", process));
+    if (std::string(std::istreambuf_iterator<char>(log), {}).find(text) != std::string::npos) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
 TEST_F(View, AKilledWorkerOfItsFarmCostsARetryAndNoBit) {
   const auto bake = [&](const std::string& name) {
     return script("settle\ngen\nsettle\nsave " + path(name) + "\nquit\n");
@@ -268,6 +278,9 @@ TEST_F(View, AKilledWorkerOfItsFarmCostsARetryAndNoBit) {
   ASSERT_TRUE(viewer.wait_for_stderr("2 workers")) << viewer.stderr_so_far();
   const std::vector<pid_t> workers = workers_of(viewer.pid());
   ASSERT_EQ(workers.size(), 2u);
+  ASSERT_TRUE(wait_for_log(workers[0], "kind=gen"));
+  ::kill(workers[0], SIGSTOP);  // the broker gives it another job
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
   ::kill(workers[0], SIGKILL);
   const test::ToolResult result = viewer.wait();
   ASSERT_EQ(result.exit_code, 0) << result.err;

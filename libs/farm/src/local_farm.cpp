@@ -45,9 +45,10 @@ pid_t spawn(const fs::path& tool, const std::vector<std::string>& arguments, con
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(127);
+  // One by one: where the parent has no stdin, the next file opened gets its number
+  ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
   const int out = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
-  const int in = ::open("/dev/null", O_RDONLY);
-  ::dup2(in, STDIN_FILENO), ::dup2(out, STDOUT_FILENO), ::dup2(out, STDERR_FILENO);
+  ::dup2(out, STDOUT_FILENO), ::dup2(out, STDERR_FILENO);
   ::execv(tool.c_str(), argv.data());
   ::_exit(127);
 }

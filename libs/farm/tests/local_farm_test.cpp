@@ -105,6 +105,16 @@ TEST_F(LocalFarmTest, StartsABrokerAndTwoWorkersThatShareTheMachine) {
   EXPECT_TRUE(errors_.empty());
 }
 
+TEST_F(LocalFarmTest, LogsAreKeptWhereThereIsNoStdin) {
+  write_tool("exec sleep 100");
+  options_.workers = options_.threads = 1;
+  const int kept = ::dup(STDIN_FILENO);
+  ::close(STDIN_FILENO);
+  const LocalFarm farm(options_);
+  if (kept >= 0) ::dup2(kept, STDIN_FILENO), ::close(kept);
+  EXPECT_EQ(started_with(farm, "worker-0.log"), of_worker(farm, 1, 0, 20 << 10));
+}
+
 TEST_F(LocalFarmTest, WorkersHaveThreadsAndCacheAsTheyAreAskedFor) {
   write_tool("exec sleep 100");
   options_.threads = 5;
