@@ -329,12 +329,17 @@ class App : public Pane {
   void draw_pictures();
   /// Begins or continues the pane's picture, or one for its smooth edges; whether there was something to do.
   bool work_on_picture(bool smooth);
+  /// As place_in_pixel() counts, of the picture that is whole and the last in the mean.
+  int last_place() const;
   void begin_drawing(const Drawing& drawing, const realtime::FrameSettings& how);
   void draw_views();
   void begin_picture();
   void continue_picture();
+  /// Shows a picture that lacks no more than the exposure and curve of now with these; false: it lacks more.
+  bool show_tone_again();
   void show_first_exposure();
   void finish_picture(const Drawing& done);
+  void show_finished();
   void draw_balls();
   void draw_outline();
   /// Brings histograms, waveform and false colours up to date with the picture.

@@ -22,14 +22,16 @@ bool change(float& value, float now) {
 }  // namespace
 
 /// A software renderer takes a second for a large picture: while something moves it gets a small one, and
-/// what nobody saw yet, a scene or its light, is shown small first.
+/// what nobody saw yet, a scene or its light, is shown small first, until its exposure is there.
 void App::resize_picture() {
   constexpr float large = 2e5f;  // pixels
   const bool moving = drag.changes_picture() || settings.play || path_plays;
   const bool waits = light.empty() && job.running();  // its light will be there soon
   const bool soon = (screen.is_new || waits) && by_hand() && viewport.width * viewport.height > large;
   const bool slow = screen.drawn ? last_stats.cpu_ms > 80 : gl_->info().software;
-  if (!moving && !soon) screen.coarse = false;
+  const bool glides = screen.drawn && !same_picture(screen.drawn->settings, settings) &&
+                      same_but_for_tone(screen.drawn->settings, settings);
+  if (!moving && !soon && !glides) screen.coarse = false;
   if ((moving || soon) && slow) screen.coarse = true;
   const float scale = settings.scale * (screen.coarse ? 0.4f : 1.0f);
   picture.resize(std::max(1, static_cast<int>(std::lround(viewport.width * scale))),
@@ -151,9 +153,27 @@ void App::begin_picture() {
   }
   if (!wants_linear()) picture.forget_linear();
   if (screen.linear_file) screen.linear_file->begun = true, screen.linear_file->mean = {};
+  screen.first_place = 0;
   begin_drawing({false, 0}, frame_settings(settings));
   screen.drawn = {view, settings, selection, picture.width(), picture.height()};
   screen.scene_dirty = screen.is_new = false;
+}
+
+bool App::show_tone_again() {
+  if (!screen.drawn || screen.drawing || screen.linear_file || rendered_ != place ||
+      !same_but_for_tone(screen.drawn->settings, settings))
+    return false;
+  const Settings before = std::exchange(screen.drawn->settings, settings);
+  if (picture_stale()) {
+    screen.drawn->settings = before;
+    return false;
+  }
+  screen.first_place = last_place();
+  picture.show_again(*renderer_, shown_tone(settings));
+  if (!settings.auto_exposure || !screen.suits) screen.suits = suitable_exposure();
+  show_finished();
+  redraw();
+  return true;
 }
 
 /// As many pieces as leave time for the interface, at least one; where nobody sits there, all.
@@ -170,29 +190,38 @@ void App::continue_picture() {
 
 /// Drawn before anybody knew what suits it, a scene's first picture is shown as suits it.
 void App::show_first_exposure() {
-  if (!follows_exposure || !exposure_.is_first()) return;
-  screen.suits = suitable_exposure();
-  if (!follow_exposure()) return;
+  if (!follows_exposure || !exposure_.is_first() || !follow_exposure()) return;
   renderer_->show_again(shown_tone(settings));
   screen.drawn->settings.exposure = settings.exposure;
 }
 
 void App::finish_picture(const Drawing& done) {
-  if (!done.smooth && !beside) show_first_exposure();
+  if (screen.linear_file && screen.linear_file->begun) screen.linear_file->mean.add(renderer_->read_back());
+  if (done.smooth) {
+    draw_balls();
+    ++screen.pictures;
+    return picture.average();
+  }
+  screen.waiting_maps = renderer_->stats().shadow_maps_waiting;
+  if (!beside) {
+    last_stats = renderer_->stats();
+    times.add("frame", 1e3 * done.seconds);
+    for (const realtime::PassTime& pass : last_stats.passes)
+      times.add(pass.name, std::max(pass.cpu_ms, pass.gpu_ms));
+    // Not of those that follow for the mean: a moved one may stand on the other side of a quarter.
+    screen.suits = suitable_exposure();
+    show_first_exposure();
+  }
+  show_finished();
+}
+
+/// The picture that is whole in the framebuffer, the first of its mean.
+void App::show_finished() {
   draw_balls();
   ++screen.pictures;
-  if (screen.linear_file && screen.linear_file->begun) screen.linear_file->mean.add(renderer_->read_back());
-  if (done.smooth) return picture.average();
-  screen.waiting_maps = renderer_->stats().shadow_maps_waiting;
   if (screen.drawn->settings.antialias && !needs_truth(screen.drawn->settings)) picture.average();
   if (beside) return;
-  last_stats = renderer_->stats();
-  times.add("frame", 1e3 * done.seconds);
-  for (const realtime::PassTime& pass : last_stats.passes)
-    times.add(pass.name, std::max(pass.cpu_ms, pass.gpu_ms));
   screen.truth_dirty = true;
-  // Not of those that follow for the mean: a moved one may stand on the other side of a quarter.
-  screen.suits = suitable_exposure();
   if (follows_exposure) follow_exposure();
 }
 

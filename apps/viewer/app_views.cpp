@@ -74,10 +74,14 @@ void App::draw_pictures() {
 }
 
 bool App::work_on_picture(bool smooth) {
-  if (!smooth && !screen.awaits_picture() && picture_stale()) begin_picture();
-  if (smooth && !screen.drawing && smooths() && picture.averaged() < smooth_pictures) {
+  if (!smooth && !screen.awaits_picture() && picture_stale()) {
+    if (show_tone_again()) return true;
+    begin_picture();
+  }
+  const bool unsmooth = smooths() && !screen.coarse && picture.averaged() < smooth_pictures;
+  if (smooth && !screen.drawing && unsmooth) {
     realtime::FrameSettings moved = frame_settings(settings);
-    moved.shift = place_in_pixel(picture.averaged());
+    moved.shift = place_in_pixel((last_place() + 1) % smooth_pictures);
     begin_drawing({true, 0}, moved);
   }
   if (!screen.drawing || screen.drawing->smooth != smooth) return false;
@@ -85,9 +89,13 @@ bool App::work_on_picture(bool smooth) {
   return true;
 }
 
+int App::last_place() const {
+  return (screen.first_place + std::max(picture.averaged() - 1, 0)) % smooth_pictures;
+}
+
 void App::begin_drawing(const Drawing& drawing, const realtime::FrameSettings& how) {
   for (Pane& other : others) other.screen.drop_drawing();
-  picture.begin(*renderer_, pose_of(view), how);
+  picture.begin(*renderer_, pose_of(view), how, drawing.smooth);
   screen.drawing = drawing;
   rendered_ = place;
 }

@@ -39,8 +39,8 @@ void Picture::average() {
 }
 
 void Picture::begin(realtime::Renderer& renderer, const scene::CameraPose& camera,
-                    const realtime::FrameSettings& settings) {
-  if (average_ && settings.shift == vec2(0)) {
+                    const realtime::FrameSettings& settings, bool joins_mean) {
+  if (average_ && !joins_mean) {
     mean_stays_ = mean_stays_ || averaged() > 0;
     average_->clear();
   }
@@ -53,6 +53,11 @@ bool Picture::step(realtime::Renderer& renderer, bool linear) {
   mean_stays_ = false;
   if (linear) linear_ = renderer.read_back();
   return false;
+}
+
+void Picture::show_again(realtime::Renderer& renderer, const image::ToneMap& tone) {
+  if (average_) average_->clear();
+  renderer.show_again(tone);
 }
 
 const realtime::FrameStats& Picture::draw(realtime::Renderer& renderer, const scene::CameraPose& camera,
@@ -132,6 +137,11 @@ bool same_picture(const Settings& a, const Settings& b) {
          a.indirect_scale == b.indirect_scale && a.lookup == b.lookup && a.weights == b.weights &&
          a.layer == b.layer && a.degree == b.degree && a.hier == b.hier && a.hier_params == b.hier_params &&
          a.balls == b.balls && a.lobes == b.lobes && a.ball == b.ball && a.ball_size == b.ball_size;
+}
+
+bool same_but_for_tone(const Settings& a, Settings b) {
+  b.exposure = a.exposure, b.auto_exposure = a.auto_exposure, b.curve = a.curve;
+  return same_picture(a, b);
 }
 
 bool needs_truth(const Settings& settings) {

@@ -37,13 +37,15 @@ class Picture {
   /// Draws a frame; keeps its linear light for comparisons when `linear` is asked for.
   const realtime::FrameStats& draw(realtime::Renderer& renderer, const scene::CameraPose& camera,
                                    const realtime::FrameSettings& settings, bool linear);
-  /// The same in pieces: begin(), then step() while it is true and there is time.
+  /// The same in pieces: begin(), then step() while it is true and there is time. One that does not join the
+  /// mean ends it.
   void begin(realtime::Renderer& renderer, const scene::CameraPose& camera,
-             const realtime::FrameSettings& settings);
+             const realtime::FrameSettings& settings, bool joins_mean = false);
   bool step(realtime::Renderer& renderer, bool linear);
+  /// The renderer's last frame, that of step(), with another tone, alone in the mean.
+  void show_again(realtime::Renderer& renderer, const image::ToneMap& tone);
   unsigned framebuffer() const { return framebuffer_.id(); }
-  /// Takes what stands in the framebuffer into a mean that is shown in its place; the first one since draw()
-  /// without a shift begins it.
+  /// Takes what stands in the framebuffer into a mean that is shown in its place.
   void average();
   /// Pictures in the mean that is shown; 0: what stands in the framebuffer is.
   int averaged() const { return average_ ? average_->count() : 0; }
@@ -99,6 +101,8 @@ realtime::FrameSettings frame_settings(const Settings& settings);
 
 /// Whether a real-time picture drawn for `a` also serves `b`.
 bool same_picture(const Settings& a, const Settings& b);
+/// Whether it does once it is shown with b's exposure and curve.
+bool same_but_for_tone(const Settings& a, Settings b);
 
 /// Whether the settings show path-traced light.
 bool needs_truth(const Settings& settings);

@@ -64,6 +64,7 @@ struct Screen {
   std::optional<DrawnWith> drawn;  ///< what the picture was drawn with; none: there is none
   std::optional<Drawing> drawing;  ///< the one that follows
   int pictures = 0;                ///< that became whole
+  int first_place = 0;             ///< in its pixels, of the first in the mean, as place_in_pixel() counts
   int waiting_maps = 0;            ///< shadow maps that the picture still lacks
   std::optional<float> suits;      ///< EV that suits it, where it is to be followed
   bool is_new = true;              ///< the scene or its light: no picture shows it yet

@@ -33,6 +33,44 @@ TEST_F(FirstPicture, IsShownAsSuitsItAndDrawnOnce) {
   EXPECT_EQ(app().picture.pixels().rgba, first) << "as it would be drawn with that exposure";
 }
 
+TEST_F(FirstPicture, AnotherExposureOrCurveIsShownWithoutAFrame) {
+  const auto frames = [&] {
+    for (const FrameTimes::Stage& stage : app().times.stages())
+      if (stage.name == "frame") return stage.ms.count();
+    return 0;
+  };
+  const auto turns = [&](int count) {
+    for (int i = 0; i < count; ++i) turn();
+  };
+  ASSERT_TRUE(turn_until([&] { return app().screen.pictures > 0; }, [&] { turn(); }));
+  turns(5);
+  const std::vector<std::uint8_t> first = app().picture.pixels().rgba;
+  app().settings.auto_exposure = false;
+  app().settings.exposure += 1, app().settings.curve = image::ToneCurve::clip;
+  app().redraw();
+  turns(5);
+  EXPECT_EQ(frames(), 1);
+  const std::vector<std::uint8_t> other = app().picture.pixels().rgba;
+  EXPECT_NE(other, first);
+  app().screen.scene_dirty = true;
+  app().redraw();
+  turns(5);
+  EXPECT_EQ(frames(), 2);
+  EXPECT_EQ(app().picture.pixels().rgba, other) << "as it is drawn for that exposure";
+  // What is looked up otherwise takes a frame
+  app().settings.curve = image::ToneCurve::filmic, app().settings.debug = DebugView::direct;
+  app().redraw();
+  turns(5);
+  EXPECT_EQ(frames(), 3);
+  // Gliding to what suits takes none after that
+  app().settings.debug = DebugView::none;
+  app().settings.exposure -= 4, app().settings.auto_exposure = true;
+  app().redraw();
+  turns(60);
+  EXPECT_EQ(app().settings.exposure, *app().screen.suits);
+  EXPECT_EQ(frames(), 4);
+}
+
 class LargeFirstPicture : public GlStage {
  protected:
   void prepare() override {
@@ -44,6 +82,18 @@ class LargeFirstPicture : public GlStage {
   }
   void ready() override { app().open_lit("builtin:two-rooms"); }
 };
+
+TEST_F(LargeFirstPicture, SmallOnesGetNoSmoothEdges) {
+  app().settings.antialias = true;
+  int most = 0;
+  ASSERT_TRUE(turn_until([&] { return !app().light.empty() && app().settled(); },
+                         [&] {
+                           turn();
+                           if (app().screen.coarse) most = std::max(most, app().picture.averaged());
+                         }));
+  EXPECT_LE(most, 1);
+  EXPECT_EQ(app().picture.averaged(), App::smooth_pictures);
+}
 
 TEST_F(LargeFirstPicture, OfASceneAndOfItsLightAreSmallAndThenWhole) {
   std::vector<int> dark, lit;  // widths of the pictures that became whole
