@@ -40,11 +40,11 @@ inline scene::Scene before_a_wall(const std::vector<scene::Material>& glass) {
 }
 
 /// Path traced up to so many scattering events.
-inline image::Image traced(const scene::Scene& scene, int max_depth) {
+inline image::Image traced(const scene::Scene& scene, int max_depth, int spp = 64) {
   trace::RenderParams params;
   params.width = glass_size.width, params.height = glass_size.height;
   params.camera = scene::camera_pose(scene, "");
-  params.path = {.max_depth = max_depth, .passes = 1, .spp = 64, .seed = 1};
+  params.path = {.max_depth = max_depth, .passes = 1, .spp = spp, .seed = 1};
   trace::RenderState state;
   trace::PathTracer(scene).render(params, state);
   return trace::resolve(state.color, 1);
@@ -52,11 +52,11 @@ inline image::Image traced(const scene::Scene& scene, int max_depth) {
 
 class GlassPixels : public WithGl {
  protected:
-  image::Image draw(const scene::Scene& scene) {
+  image::Image draw(const scene::Scene& scene, int supersample = 1) {
     realtime::Renderer renderer(
         gl(), scene,
         {.light_map_size = 128, .area_map_size = 128, .sun_map_size = 128, .environment_map_size = 128});
-    renderer.draw(scene::camera_pose(scene, ""), {},
+    renderer.draw(scene::camera_pose(scene, ""), {.supersample = supersample},
                   {.width = glass_size.width, .height = glass_size.height});
     return renderer.read_back();
   }

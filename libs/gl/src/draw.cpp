@@ -23,6 +23,8 @@ void apply(const DrawState& state) {
   glBlendEquation(GL_FUNC_ADD);
   if (state.blend == Blend::add) {
     glBlendFunc(GL_ONE, GL_ONE);
+  } else if (state.blend == Blend::add_to_rest) {
+    glBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
   } else if (state.blend == Blend::multiply) {
     glBlendFunc(GL_ZERO, GL_SRC_COLOR);
   } else {

@@ -31,6 +31,15 @@ vec3 to_environment(vec3 d) {
   return vec3(c * d.x - s * d.z, d.y, s * d.x + c * d.z);
 }
 
+vec2 picture_size() { return vec2(frame.camera_right.w, frame.camera_up.w); }
+// Where the picture shows a point or, with w 0, a direction from the eye; it may lie outside.
+vec2 pixel_of(vec4 place) {
+  vec3 p = place.xyz - place.w * frame.camera_position.xyz, right = frame.camera_right.xyz, up = frame.camera_up.xyz;
+  vec2 plane = vec2(dot(p, right) / dot(right, right), dot(p, up) / dot(up, up));
+  if (frame.camera_position.w == 0) plane /= max(dot(p, frame.camera_forward.xyz), 1e-20);
+  return 0.5 * (plane + 1 + frame.shift.xy) * picture_size();
+}
+
 float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 float max_component(vec3 v) { return max(v.x, max(v.y, v.z)); }
 

@@ -5,17 +5,10 @@ const int CONTACT_STEPS = 8;
 // Of the reach: how far out of a surface's plane that rises which may block it, and how far from it that is.
 const float CONTACT_RISE = 0.02, CONTACT_FAR = 4;
 
-vec2 pixel_of(vec3 p) {
-  vec3 d = p - frame.camera_position.xyz, right = frame.camera_right.xyz, up = frame.camera_up.xyz;
-  vec2 plane = vec2(dot(d, right) / dot(right, right), dot(d, up) / dot(up, up));
-  if (!orthographic()) plane /= max(dot(d, frame.camera_forward.xyz), 1e-20);
-  return 0.5 * (plane + 1 + frame.shift.xy) * vec2(frame.camera_right.w, frame.camera_up.w);
-}
-
 // 0 where the way from a surface into direction wi goes within `reach` metres through what the picture shows beside it,
 // else 1.
 float contact_visibility(Surface s, vec3 wi, float reach) {
-  vec2 own = gl_FragCoord.xy, way = pixel_of(s.position + reach * wi) - pixel_of(s.position);
+  vec2 own = gl_FragCoord.xy, way = pixel_of(vec4(s.position + reach * wi, 1)) - pixel_of(vec4(s.position, 1));
   int steps = min(int(ceil(max(abs(way.x), abs(way.y)))), CONTACT_STEPS);
   for (int i = 1; i <= steps; ++i) {
     float share = float(i) / float(steps);

@@ -224,8 +224,8 @@ vec3 diffusely(Surface s, vec3 wi) { return reflected(s, wi); }
 #endif
 
 // Irradiance by spherical harmonics, divided among directions with shadow maps. What the specular lobe mirrors comes from
-// tiles, dimmed by the share of the lobe that SPHLs see to be open; where none is in sight, by the share of the directions
-// around the mirrored one that are free.
+// tiles, dimmed by the share of the lobe that SPHLs see to be open; where none is in sight, and behind rough sheets, on which
+// their steps would show, by the share of the directions around the mirrored one that are free.
 void main() {
   Surface s = read_surface(ivec2(gl_FragCoord.xy));
   prepare(s);
@@ -265,7 +265,7 @@ void main() {
   vec3 reflects = sum * scale;
 #endif
 #ifdef FULL_BSDF
-  float open = sky_share(s, mirror, 2 * bsdf.alpha);
+  float open = s.from_behind ? -1 : sky_share(s, mirror, 2 * bsdf.alpha);
   if (open < 0) open = around > 0 ? free / around : 1;
   reflects += bsdf.albedo * open * emitter.light.rgb * through_lobe(mirror, bsdf.roughness);
 #endif

@@ -98,6 +98,7 @@ void main() {
 
   vec3 diffuse = unlit ? vec3(0) : base.rgb * (1 - metallic);
   vec3 f0 = unlit ? vec3(0) : mix(vec3(material.rough.z), base.rgb, metallic);
+  bool from_behind = false;
 #ifdef GLASS
   {
     float share = glass_share(uv.xy, uv.zw);
@@ -126,16 +127,22 @@ void main() {
       return;
     }
     diffuse *= 1 - share;
-    if (glass_layer == GLASS_REFLECTING) {
+    from_behind = glass_layer == GLASS_FROSTED;
+    if (from_behind) {
+      if (material.glass.y == 0 || roughness.y * roughness.y <= MIN_ALPHA) discard;
+      diffuse = vec3(0), roughness.y = abs(roughness.y);
+      n = -n, toward_viewer = -toward_viewer;
+    }
+    if (from_behind || glass_layer == GLASS_REFLECTING) {
       // The F0 with which Schlick's term is that of the glass at this angle.
-      float m = 1 - cosine, s = m * m * m * m * m;
-      vec3 seen = mix(f0 * (1 - s) + s, shares.reflected, share);
+      float s = schlick_weight(cosine);
+      vec3 seen = from_behind ? share * shares.transmitted : mix(f0 * (1 - s) + s, shares.reflected, share);
       f0 = clamp((seen - s) / max(1 - s, 1e-3), 0.0, 1.0);
     }
   }
 #endif
   gbuffer0 = uvec4(packSnorm2x16(oct_encode(n)), packSnorm2x16(oct_encode(toward_viewer)),
-                   pack_color(diffuse, (flags & 2) != 0 ? 1u : 0u), pack_color(f0, from_front ? 0u : 1u));
+                   pack_color(diffuse, (flags & 2) != 0 ? 1u : 0u), pack_color(f0, (from_front ? 0u : 1u) | (from_behind ? 2u : 0u)));
   gbuffer1 = uvec2(packSnorm2x16(roughness), floatBitsToUint(dot(from_camera, frame.camera_forward.xyz)));
-  color_out = vec4(emission_shown == 1 || (emission_shown == 2 && unlit) ? emission : vec3(0), 1);
+  color_out = vec4(!from_behind && (emission_shown == 1 || (emission_shown == 2 && unlit)) ? emission : vec3(0), 1);
 }

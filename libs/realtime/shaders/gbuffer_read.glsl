@@ -9,6 +9,8 @@ struct Surface {
   float diffuse_roughness, specular_roughness;
   float depth;  // along the view axis
   bool moves;   // on a body that an animation moves
+  // A rough sheet from behind: its lobe is that of what it reflects toward the eye's mirror image
+  bool from_behind;
 };
 
 // Direction to the viewer's world through a pixel; for an orthographic camera its offset on the image plane.
@@ -51,6 +53,8 @@ Surface read_surface(ivec2 at) {
   s.diffuse = unpack_color(g0.z);
   s.moves = g0.z >> 30 != 0u;
   s.f0 = unpack_color(g0.w);
+  s.from_behind = g0.w >> 31 != 0u;
+  if (s.from_behind) s.wo -= 2 * dot(s.wo, s.normal) * s.normal;
   vec2 roughness = unpackSnorm2x16(g1.x);
   s.diffuse_roughness = roughness.x;
   s.specular_roughness = roughness.y;

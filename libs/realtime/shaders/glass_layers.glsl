@@ -12,15 +12,8 @@ bool parallel_eye() { return frame.camera_position.w != 0; }
 uniform int bent_steps;
 layout(binding = UNIT_BEHIND_GLASS) uniform sampler2D behind_glass;
 
-// The pixel that shows a place or, with w 0, a direction from the eye; outside the picture the nearest.
-ivec2 pixel_of(vec4 place) {
-  vec3 p = place.xyz - place.w * frame.camera_position.xyz;
-  vec3 right = frame.camera_right.xyz, up = frame.camera_up.xyz;
-  vec2 plane = vec2(dot(p, right) / dot(right, right), dot(p, up) / dot(up, up));
-  if (!parallel_eye()) plane /= max(dot(p, frame.camera_forward.xyz), 1e-6);
-  vec2 size = vec2(frame.camera_right.w, frame.camera_up.w);
-  return ivec2(clamp(0.5 * (plane + frame.shift.xy + 1) * size, vec2(0), size - 1));
-}
+// Outside the picture the nearest.
+ivec2 shown_at(vec4 place) { return ivec2(clamp(pixel_of(place), vec2(0), picture_size() - 1)); }
 
 // Light that a body bends twice, where it enters and where it leaves (after Wyman, An Approximate Image-Space Approach for
 // Interactive Refraction, SIGGRAPH 2005). Then it goes on to what the picture shows there.
@@ -32,13 +25,13 @@ vec3 light_through_body(vec3 n, vec3 wo, vec3 tint) {
   // From the way straight through it toward the way to the back that the picture shows there
   float way = along * (uintBitsToFloat(leaves.x) - depth), deeper = dot(inside, forward);
   for (int i = 0; i < bent_steps / 5; ++i) {
-    uvec4 back = texelFetch(exits, pixel_of(vec4(here + way * inside, 1)), 0);
+    uvec4 back = texelFetch(exits, shown_at(vec4(here + way * inside, 1)), 0);
     if (back.z != leaves.z) break;
     leaves = back;
     if (deeper > 0.05) way = max((uintBitsToFloat(back.x) - depth) / deeper, 0.0);
   }
   vec3 from = here + way * inside;
-  float behind = opaque_depth(pixel_of(vec4(from, 1))), start = depth + way * deeper;
+  float behind = opaque_depth(shown_at(vec4(from, 1))), start = depth + way * deeper;
   // By what stands in it, not by its ground or by what is before it
   bool filled = behind > depth && behind - depth < 0.995 * (start - depth);
   vec3 left = glass_shares(dot(n, wo), tint).transmitted;
@@ -60,21 +53,21 @@ vec3 light_through_body(vec3 n, vec3 wo, vec3 tint) {
   bool in_front = true;
   for (int i = 0; i < bent_steps && after < 0; ++i, step_length *= 1.2) {
     t += step_length;
-    float there = opaque_depth(pixel_of(vec4(from + t * goes, 1)));
+    float there = opaque_depth(shown_at(vec4(from + t * goes, 1)));
     bool in_front_now = there == 0 || start + t * ahead < there;
     if (in_front && !in_front_now) after = t;
     if (after < 0) before = t;
     in_front = in_front_now;
   }
   for (int i = 0; i < bent_steps / 4 && after > 0; ++i) {
-    float middle = 0.5 * (before + after), there = opaque_depth(pixel_of(vec4(from + middle * goes, 1)));
+    float middle = 0.5 * (before + after), there = opaque_depth(shown_at(vec4(from + middle * goes, 1)));
     bool short_of_it = there == 0 || start + middle * ahead < there;
     before = short_of_it ? middle : before;
     after = short_of_it ? after : middle;
   }
   if (filled && after > 0) way = after;
   left *= exp(-max(way, 0.0) * material.inside.rgb);
-  ivec2 seen = pixel_of(after > 0 ? vec4(from + after * goes, 1) : vec4(goes, 0));
+  ivec2 seen = shown_at(after > 0 ? vec4(from + after * goes, 1) : vec4(goes, 0));
   return left * texelFetch(behind_glass, seen, 0).rgb;
 }
 #endif

@@ -69,9 +69,20 @@ void Renderer::Data::plan(const Eye& eye) {
     }
   }
   if (wants_method) todo.push_back({indirect, &Data::draw_method});
-  if (wants_direct) in_bands(seen, &Data::draw_seen);
-  const bool shows_light = wants_direct || wants_indirect || wants_method;
-  if (scene.any_glass() && !taken && shows_light && settings.view != View::chosen_sphl) {
+  const bool over_glass = scene.any_glass() && !taken && settings.view != View::chosen_sphl &&
+                          (wants_direct || wants_indirect || wants_method);
+  const bool over_frost = over_glass && scene.any_frosted();
+  if (wants_direct) in_bands(seen, &Data::draw_sky);
+  if (over_frost) todo.push_back({glass, &Data::keep_behind_frost});
+  if (wants_direct) in_bands(seen, &Data::draw_lamps);
+  if (over_frost) {
+    todo.push_back({glass, &Data::draw_frost});
+    in_bands(glass, &Data::spread_behind_frost);
+    if (wants_direct) in_bands(glass, &Data::draw_direct_behind_frost);
+    if (wants_indirect) in_bands(glass, &Data::draw_indirect_behind_frost);
+  }
+  if (over_glass) {
+    if (!over_frost) todo.push_back({glass, &Data::draw_through_glass});
     todo.push_back({glass, &Data::draw_glass});
     if (wants_direct) in_bands(glass, &Data::draw_direct_on_glass);
     if (wants_indirect) in_bands(glass, &Data::draw_indirect_on_glass);

@@ -53,6 +53,15 @@ void FrameImages::want_bodies() {
   bent_pass = Framebuffer(std::array<const Texture*, 3>{nullptr, nullptr, &color}, &depth);
 }
 
+void FrameImages::want_frost() {
+  if (behind_frost.id() != 0) return;
+  const gl::Rect f = full();
+  behind_frost = Texture(Format::rgba32f, f.width, f.height, 0, true);
+  behind_gbuffer1 = Texture(Format::rg32ui, f.width, f.height);
+  left_by_glass = Texture(Format::rgba32f, f.width, f.height);
+  left_by_glass_pass = Framebuffer(std::array<const Texture*, 3>{nullptr, nullptr, &left_by_glass}, nullptr);
+}
+
 gl::Rect FrameImages::indirect() const {
   const gl::Rect f = full();
   return {0, 0, (f.width + indirect_scale - 1) / indirect_scale,
@@ -61,8 +70,9 @@ gl::Rect FrameImages::indirect() const {
 
 std::size_t FrameImages::bytes() const {
   std::size_t sum = listed.size();
-  for (const Texture* t : {&gbuffer0, &gbuffer1, &depth, &color, &irradiance, &glossy, &cells, &occlusion,
-                           &shadow, &resolved, &exits, &exit_depth, &behind_glass}) {
+  for (const Texture* t :
+       {&gbuffer0, &gbuffer1, &depth, &color, &irradiance, &glossy, &cells, &occlusion, &shadow, &resolved,
+        &exits, &exit_depth, &behind_glass, &behind_frost, &behind_gbuffer1, &left_by_glass}) {
     if (t->id() != 0) sum += t->bytes();
   }
   return sum;

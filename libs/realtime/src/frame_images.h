@@ -16,6 +16,9 @@ struct FrameImages {
   gl::Texture resolved;                         ///< of every pixel, where a pixel has several samples
   gl::Texture exits, exit_depth, behind_glass;  ///< for bodies of glass alone
   gl::Framebuffer exits_pass, bent_pass;
+  /// For rough sheets alone: the picture behind them, how far away it is, and what all glass leaves of it.
+  gl::Texture behind_frost, behind_gbuffer1, left_by_glass;
+  gl::Framebuffer left_by_glass_pass;
   gl::Framebuffer geometry_pass, light_pass, glass_pass, indirect_pass, cells_pass, occlusion_pass,
       shadow_pass, resolve_pass;
 
@@ -32,6 +35,8 @@ struct FrameImages {
   std::size_t bytes() const;
   /// Makes what bodies of glass need, where it is not there yet.
   void want_bodies();
+  /// Likewise for rough sheets.
+  void want_frost();
 
  private:
   void make_interpolation();

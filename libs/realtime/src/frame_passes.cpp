@@ -72,7 +72,8 @@ void Renderer::Data::draw_items(GlassLayer layer, gl::DrawState state, const Wan
   const FrameSettings& settings = frame_settings;
   const bool emission = settings.direct && (settings.view == View::lit || settings.view == View::direct);
   scene.begin(false);
-  const bool writes_class = layer == GlassLayer::opaque || layer == GlassLayer::reflecting;
+  const bool writes_class =
+      layer == GlassLayer::opaque || layer == GlassLayer::frosted || layer == GlassLayer::reflecting;
   int surface = -1, textures = -1, glass_programs = -1;
   for (const DrawItem& item : scene.items()) {
     if (!wanted(item)) continue;
@@ -115,20 +116,63 @@ void Renderer::Data::bend_light() {
   draw_items(GlassLayer::bent, {.depth = gl::Depth::test}, bends);
 }
 
-void Renderer::Data::draw_glass() {
-  const auto is_glass = [](const DrawItem& item) { return item.glass; };
+namespace {
+
+bool is_glass(const DrawItem& item) {
+  return item.glass;
+}
+
+}  // namespace
+
+void Renderer::Data::draw_through_glass() {
   images.gbuffer1.bind(unit::gbuffer1);
   if (scene.any_bends()) bend_light();
   gl::bind_framebuffer(images.glass_pass.id(), images.full());
   draw_items(GlassLayer::through, {.blend = gl::Blend::multiply}, is_glass);
+}
+
+void Renderer::Data::keep_behind_frost() {
+  images.want_frost();
+  const gl::Rect full = images.full();
+  gl::copy_texels({images.color}, {images.behind_frost}, full.width, full.height);
+  images.behind_frost.generate_mipmaps();
+  gl::copy_texels({images.gbuffer1}, {images.behind_gbuffer1}, full.width, full.height);
+}
+
+void Renderer::Data::draw_frost() {
+  images.gbuffer1.bind(unit::gbuffer1);
+  if (scene.any_bends()) bend_light();
+  gl::bind_framebuffer(images.left_by_glass_pass.id(), images.full());
+  gl::clear_color(2, 1, 1, 1, 1);
+  draw_items(GlassLayer::through, {.blend = gl::Blend::multiply}, is_glass);
+  gl::bind_framebuffer(images.geometry_pass.id(), images.full());
+  gl::clear_stencil(surface_class::nothing);
+  draw_items(GlassLayer::frosted, {.depth = gl::Depth::test_and_write, .blend = gl::Blend::add},
+             [](const DrawItem& item) { return item.frosted; });
+}
+
+void Renderer::Data::spread_behind_frost() {
+  images.left_by_glass.bind(unit::left_by_glass);
+  images.behind_frost.bind(unit::behind_glass);
+  images.behind_gbuffer1.bind(unit::behind_gbuffer1);
+  const unsigned target = images.light_pass.id();
+  fullscreen(shaders.behind_glass(false), target, images.full(),
+             {.blend = gl::Blend::multiply, .stencil_equal = surface_class::nothing});
+  gl::Program& spread = shaders.behind_glass(true);
+  spread.set("taps", 32);
+  spread.set("steps", 12);
+  fullscreen(spread, target, images.full(), {.stencil_equal = surface_class::full});
+}
+
+void Renderer::Data::draw_glass() {
   gl::bind_framebuffer(images.geometry_pass.id(), images.full());
   gl::clear_stencil(surface_class::nothing);
   draw_items(GlassLayer::reflecting, {.depth = gl::Depth::test_and_write, .blend = gl::Blend::add}, is_glass);
 }
 
-void Renderer::Data::draw_indirect_on_glass() {
+void Renderer::Data::add_indirect_on_glass(gl::Blend blend) {
   fullscreen(indirect_program(true, IndirectOutput::radiance), images.light_pass.id(), images.full(),
-             of_class(surface_class::full));
+             {.blend = blend, .stencil_equal = surface_class::full});
 }
 
 void Renderer::Data::bind_sky_lobes(gl::Program& program) {
@@ -138,7 +182,7 @@ void Renderer::Data::bind_sky_lobes(gl::Program& program) {
   program.set("environment_roughness", std::span<const float>(environment_roughness));
 }
 
-void Renderer::Data::add_direct(bool glass) {
+void Renderer::Data::add_direct(GlassLayer layer) {
   const bool shadow_view = frame_settings.view == View::shadow;
   lights.bind();
   if (probes.count() > 0) probes.bind_sight();
@@ -149,17 +193,22 @@ void Renderer::Data::add_direct(bool glass) {
   }
   for (const Lights::Lit& lit : lights.lit()) {
     if (!lit.lights) continue;
+    gl::DrawState on_glass = of_class(surface_class::full);
+    if (layer == GlassLayer::frosted) {
+      if (lit.kind == EmitterKind::mesh && !lit.seen) continue;  // the picture shows it
+      if (lit.kind == EmitterKind::environment) on_glass.blend = gl::Blend::add_to_rest;
+    }
     lights.bind_emitter(lit);
     const auto draw_class = [&](bool full, const gl::DrawState& where) {
       if (lit.mirrors && (shadow_view || !full)) return;
       // Glass itself is lit by what has not passed it yet
-      const bool filtered = scene.any_glass() && !glass;
+      const bool filtered = scene.any_glass() && layer == GlassLayer::opaque;
       gl::Program& program = lit.mirrors ? shaders.mirrored_environment(filtered)
                                          : shaders.direct(lit.kind, full, shadow_view, filtered);
       if (full && lit.kind == EmitterKind::environment) bind_sky_lobes(program);
       fullscreen(program, target.id(), images.full(), where);
     };
-    glass ? draw_class(true, of_class(surface_class::full)) : for_each_class(draw_class);
+    layer == GlassLayer::opaque ? for_each_class(draw_class) : draw_class(true, on_glass);
   }
 }
 
@@ -226,10 +275,10 @@ void Renderer::Data::draw_listed(gl::Program& program) {
   gl::shader_memory_barrier();
 }
 
-void Renderer::Data::draw_seen() {
+void Renderer::Data::draw_seen(bool environment) {
   lights.bind();
   for (const Lights::Lit& lit : lights.lit()) {
-    if (!lit.seen) continue;
+    if (!lit.seen || (lit.kind == EmitterKind::environment) != environment) continue;
     const bool behind = lit.kind != EmitterKind::sphere && lit.kind != EmitterKind::mesh;
     if (behind && frame_settings.sky == Sky::black) continue;
     lights.bind_emitter(lit);

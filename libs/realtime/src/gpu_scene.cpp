@@ -134,7 +134,7 @@ void GpuScene::classify(const std::vector<scene::Material>& materials) {
       classes_.push_back(class_of(m)), glass_.push_back(glass_kind(m));
     classes_.push_back(class_of(plain_material)), glass_.push_back(GlassKind::none);
   }
-  any_full_ = any_glass_ = any_absorbs_ = any_bends_ = false;
+  any_full_ = any_glass_ = any_absorbs_ = any_bends_ = any_frosted_ = false;
   for (DrawItem& item : items_) {
     item.surface_class = classes_[item.material];
     const GlassKind glass = glass_[item.material];
@@ -144,6 +144,9 @@ void GpuScene::classify(const std::vector<scene::Material>& materials) {
     const vec4& kind = materials_[item.material].glass;
     item.bends = item.glass && kind.y == 0 && kind.z > 1;
     any_bends_ |= item.bends;
+    const float roughness = materials_[item.material].rough.y;
+    item.frosted = item.glass && kind.y != 0 && roughness * roughness > shading::min_alpha;
+    any_frosted_ |= item.frosted;
     any_absorbs_ |= item.glass && vec3(materials_[item.material].inside) != vec3(0);
   }
   std::ranges::stable_sort(items_, [](const DrawItem& a, const DrawItem& b) {

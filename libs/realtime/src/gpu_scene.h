@@ -24,10 +24,11 @@ struct DrawItem {
   int index_count, base_vertex;
   std::size_t first_index;
   scene::Bounds local, world;
-  bool partial;        ///< may be covered in part only
-  int textures;        ///< those that its material reads: a bit for each of Shaders::texture_names
-  bool glass = false;  ///< light may go through it
-  bool bends = false;  ///< and is bent, as it is a body
+  bool partial;          ///< may be covered in part only
+  int textures;          ///< those that its material reads: a bit for each of Shaders::texture_names
+  bool glass = false;    ///< light may go through it
+  bool bends = false;    ///< and is bent, as it is a body
+  bool frosted = false;  ///< and is spread, as it is a rough sheet
 
   /// Whether light may pass some of it.
   bool filters() const { return partial || glass; }
@@ -60,6 +61,8 @@ class GpuScene {
   bool any_absorbs() const { return any_absorbs_; }
   /// Whether any shows what is behind it elsewhere.
   bool any_bends() const { return any_bends_; }
+  /// Whether any spreads it.
+  bool any_frosted() const { return any_frosted_; }
 
   /// Then draw() what is wanted, in the order of items() for few changes of state. `program`
   /// is the one in use.
@@ -99,7 +102,7 @@ class GpuScene {
   scene::Bounds bounds_;
   float anisotropy_;
   std::size_t bytes_ = 0;
-  bool any_full_ = false, any_glass_ = false, any_absorbs_ = false, any_bends_ = false;
+  bool any_full_ = false, any_glass_ = false, any_absorbs_ = false, any_bends_ = false, any_frosted_ = false;
   // Since begin(); below 0: none
   mutable int bound_material_, bound_instance_;
   mutable const MeshArrays* bound_arrays_;

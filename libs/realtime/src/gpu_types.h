@@ -102,8 +102,9 @@ inline constexpr int list_width_log2 = 11, list_width = 1 << list_width_log2;
 inline constexpr std::array<float, 6> radiance_roughness = {0, 0.3f, 0.45f, 0.6f, 0.8f, 1};
 
 /// What passes over glass draw: what is mostly no glass; where light leaves the nearest body; what that bends
-/// of the picture behind it; what other glass leaves of the light; glass as a surface that reflects.
-enum class GlassLayer { opaque, exits, bent, through, reflecting };
+/// of the picture behind it; what other glass leaves of the light; rough sheets, lit from behind; glass as a
+/// surface that reflects.
+enum class GlassLayer { opaque, exits, bent, through, frosted, reflecting };
 
 /// Of what OpenGL keeps as halves.
 inline constexpr float largest_half = 65504;
@@ -123,8 +124,9 @@ inline constexpr unsigned gbuffer0 = 0, gbuffer1 = 1, albedo_table = 3, light_ma
                           parallel_maps = 6, probe_maps = 7;
 inline constexpr unsigned base_texture = 8, rough_texture = 9, emission_texture = 10, normal_texture = 11,
                           transmission_texture = 12;
-/// Of passes over glass: where light leaves bodies, and the picture behind.
-inline constexpr unsigned exits = 2, behind_glass = 13;
+/// Of passes over glass: where light leaves bodies, the picture behind, how far away that is, and what glass
+/// leaves of it.
+inline constexpr unsigned exits = 2, behind_glass = 13, behind_gbuffer1 = 8, left_by_glass = 9;
 inline constexpr unsigned irradiance = 8, glossy = 9, cells = 10, shadow_image = 8, occlusion = 2;
 inline constexpr unsigned light_glass = 8, area_glass = 9, parallel_glass = 10, lamp_profiles = 11;
 inline constexpr unsigned fitted_ranges = 8, fitted_lists = 9, fitted_light = 10, fitted_points = 11;

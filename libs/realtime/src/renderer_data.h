@@ -85,26 +85,41 @@ struct Renderer::Data {
   void draw_items(GlassLayer layer, gl::DrawState state, const Wanted& wanted);
   /// Draws in the nearest bodies of glass what the picture shows behind them.
   void bend_light();
-  /// Dims what stands behind glass, and puts the nearest into the G-buffer, for what it reflects.
+  /// Dims what stands behind glass.
+  void draw_through_glass();
+  /// Keeps the picture that rough sheets spread: without lamps, which light these as they light any surface.
+  void keep_behind_frost();
+  /// Finds what glass leaves, and puts the nearest rough sheets into the G-buffer, seen from behind.
+  void draw_frost();
+  /// Dims the picture by that, and spreads it behind those; what it does not show comes from the sky and from
+  /// probes.
+  void spread_behind_frost();
+  /// Puts the nearest glass into the G-buffer, for what it reflects.
   void draw_glass();
   void bind_sky_lobes(gl::Program& program);
-  void draw_direct() { add_direct(false); }
-  void draw_direct_on_glass() { add_direct(true); }
-  void add_direct(bool glass);
+  void draw_direct() { add_direct(GlassLayer::opaque); }
+  void draw_direct_behind_frost() { add_direct(GlassLayer::frosted); }
+  void draw_direct_on_glass() { add_direct(GlassLayer::reflecting); }
+  void add_direct(GlassLayer layer);
   IndirectLookup lookup_of(const FrameSettings& settings) const;
   gl::Program& indirect_program(bool full, IndirectOutput output);
   /// At every pixel; or at some for the images that interpolate_indirect() takes, then at the others.
   void draw_indirect();
   void draw_some_indirect();
   void draw_other_indirect();
-  void draw_indirect_on_glass();
+  void draw_indirect_behind_frost() { add_indirect_on_glass(gl::Blend::add_to_rest); }
+  void draw_indirect_on_glass() { add_indirect_on_glass(gl::Blend::add); }
+  void add_indirect_on_glass(gl::Blend blend);
   void draw_occlusion();
   /// Images of indirect light to the pixels between, as far as they agree; lists the others.
   void interpolate_indirect();
   /// Adds what the program, a compute shader, finds at the listed pixels.
   void draw_listed(gl::Program& program);
   void draw_method();
-  void draw_seen();
+  void draw_sky() { draw_seen(true); }
+  void draw_lamps() { draw_seen(false); }
+  /// Emitters that are no surfaces: the environment, or all others.
+  void draw_seen(bool environment);
   void draw_view();
   void draw_resolved();
   void draw_display();

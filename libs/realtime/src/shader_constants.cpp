@@ -41,6 +41,7 @@ constexpr ShaderConstant constants[] = {
     whole("GLASS_EXITS", GlassLayer::exits),
     whole("GLASS_BENT", GlassLayer::bent),
     whole("GLASS_THROUGH", GlassLayer::through),
+    whole("GLASS_FROSTED", GlassLayer::frosted),
     whole("GLASS_REFLECTING", GlassLayer::reflecting),
     // Materials
     whole("ALBEDO_TABLE_SIZE", shading::albedo_table_size),
@@ -86,6 +87,8 @@ constexpr ShaderConstant constants[] = {
     whole("UNIT_OCCLUSION", unit::occlusion),
     whole("UNIT_EXITS", unit::exits),
     whole("UNIT_BEHIND_GLASS", unit::behind_glass),
+    whole("UNIT_BEHIND_GBUFFER1", unit::behind_gbuffer1),
+    whole("UNIT_LEFT_BY_GLASS", unit::left_by_glass),
     whole("UNIT_LIGHT_GLASS", unit::light_glass),
     whole("UNIT_AREA_GLASS", unit::area_glass),
     whole("UNIT_PARALLEL_GLASS", unit::parallel_glass),

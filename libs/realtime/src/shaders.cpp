@@ -98,7 +98,7 @@ std::string Shaders::compile_all() {
   occlusion(), mark(), view(), resolve(), display(), glass_shadow(), take_gbuffer(), some_places(),
       mend_cracks();
   for (const bool full : {false, true}) {
-    shadow(full);
+    shadow(full), behind_glass(full);
     depth_bounds(full), agree(full), interpolate(full), mirrored_environment(full);
     for (const auto output : {IndirectOutput::radiance, IndirectOutput::images, IndirectOutput::listed}) {
       for (int k = 0; k < method_kinds; ++k) method(static_cast<MethodKind>(k), full, output);

@@ -53,6 +53,11 @@ class Shaders {
   gl::Program& occlusion() { return get(occlusion_, "occlusion.frag"); }
   /// An emitter that is no surface, as the eye sees it.
   gl::Program& seen(EmitterKind kind);
+  /// The picture behind glass: dimmed, and spread where a rough sheet is.
+  gl::Program& behind_glass(bool spread) {
+    return get(behind_glass_[spread], fullscreen, "behind_glass.frag",
+               [&] { return std::string(spread ? "#define SPREAD\n" : ""); });
+  }
   gl::Program& some_places() { return get(some_places_, "some_places.frag"); }
   gl::Program& view() { return get(view_, "view.frag"); }
   gl::Program& resolve() { return get(resolve_, "resolve.frag"); }
@@ -82,7 +87,7 @@ class Shaders {
   Slot geometry_[16][3], shadow_[2], depth_bounds_[2], glass_shadow_, direct_[emitter_kinds][2][2][2],
       mirrored_environment_[2], indirect_[indirect_lookups][2][indirect_outputs], agree_[2], mark_,
       interpolate_[2], occlusion_, method_[method_kinds][2][indirect_outputs], seen_[emitter_kinds], view_,
-      resolve_, display_, take_gbuffer_, some_places_, mend_cracks_;
+      resolve_, display_, take_gbuffer_, some_places_, mend_cracks_, behind_glass_[2];
 };
 
 }  // namespace ssphh::realtime

@@ -9,7 +9,8 @@ namespace ssphh::gl {
 
 enum class Depth { off, test, test_and_write };
 /// `multiply` darkens what is there by what is drawn.
-enum class Blend { off, add, over, multiply };
+/// `add_to_rest`: times one less the alpha that is there.
+enum class Blend { off, add, add_to_rest, over, multiply };
 enum class Cull { off, back, front };
 
 /// Depth is reversed everywhere in this project: 1 at the near plane, 0 at infinity, nearer is greater.
