@@ -19,6 +19,7 @@
 #include <ssphh/trace/transport_scene.h>
 
 #include "here.h"
+#include "options/render_options.h"
 #include "temp_dir.h"
 
 namespace ssphh {
@@ -190,8 +191,21 @@ TEST_F(Render, ACheckpointOfAnotherPictureIsNotContinued) {
   EXPECT_FALSE(std::filesystem::exists(out_ + ".state"));
 }
 
+TEST_F(Render, MethodIsSsphhWhereOpenGlDrawsOrProbesAreGiven) {
+  EXPECT_EQ(json_here(command())["method"], "path");
+  EXPECT_EQ(json_here(command({"--backend", "gl", "--max-depth", "1"}))["method"], "ssphh");
+  EXPECT_THAT(problem_here(command({"--probes", "x.sphl"})), HasSubstr("x.sphl"));
+  app::RenderOptions options;
+  EXPECT_EQ(app::method_of(options), "path");
+  options.probes = "a.sphl";
+  EXPECT_EQ(app::method_of(options), "ssphh");
+  options.method = "path";
+  EXPECT_EQ(app::method_of(options), "path");
+}
+
 TEST_F(Render, OptionsThatHaveNoEffectAreRefused) {
-  EXPECT_THAT(problem_here(command({"--probes", "x.sphl"})), HasSubstr("is of method ssphh, not of path"));
+  EXPECT_THAT(problem_here(command({"--method", "path", "--probes", "x.sphl"})),
+              HasSubstr("is of method ssphh, not of path"));
   EXPECT_THAT(problem_here(command({"--param", "a=1"})), HasSubstr("method path has none"));
   EXPECT_THAT(problem_here(command({"--method", "ssphh", "--probes", "x.sphl", "--param", "a=1"})),
               HasSubstr("leave out one of them"));
@@ -202,8 +216,9 @@ TEST_F(Render, OptionsThatHaveNoEffectAreRefused) {
   const auto gl = [&](const std::vector<std::string>& more) {
     return problem_here(command(joined({"--backend", "gl"}, more)));
   };
-  EXPECT_THAT(gl({}),
-              AllOf(HasSubstr("--method: path tracing is not for --backend gl"), HasSubstr("leave it out")));
+  EXPECT_THAT(
+      gl({"--method", "path"}),
+      AllOf(HasSubstr("--method path: path tracing is not for --backend gl"), HasSubstr("leave it out")));
   EXPECT_THAT(gl({"--method", "ddgi"}), HasSubstr("--method ddgi: has no OpenGL version"));
   EXPECT_THAT(gl({"--method", "direct", "--projection", "equirect"}), HasSubstr("--projection"));
   EXPECT_THAT(gl({"--method", "direct", "--resume"}), HasSubstr("--resume"));

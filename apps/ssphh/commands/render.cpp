@@ -193,7 +193,9 @@ RenderResult render_cpu(const RenderOptions& o, TevViewer& viewer, const Control
 
 }  // namespace
 
-RenderResult run_render(const RenderOptions& o, const Control& control) {
+RenderResult run_render(const RenderOptions& given, const Control& control) {
+  RenderOptions o = given;
+  o.method = method_of(given);
   TevViewer viewer(o.tev);
   RenderResult result =
       o.backend == RenderBackend::gl ? render_gl(o, control) : render_cpu(o, viewer, control);
@@ -223,7 +225,7 @@ void write_rendered(RenderResult& result, const RenderOptions& o, const DrawOver
 }
 
 json::Value to_json(const RenderResult& r, const RenderOptions& o) {
-  json::Value object = {{"output", o.output}, {"method", o.method}};
+  json::Value object = {{"output", o.output}, {"method", method_of(o)}};
   if (r.gl) object.update({{"backend", name_of(o.backend)}, {"renderer", r.gl->renderer}});
   object.update({{"width", r.picture.width}, {"height", r.picture.height}});
   if (r.gl) {

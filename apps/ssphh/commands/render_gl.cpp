@@ -38,7 +38,7 @@ void refuse_with_gl(const RenderOptions& o) {
     throw Error(option, problem + " is not for --backend gl", "leave it out, or take --backend cpu");
   };
   pipeline::check_method(o.method, !o.parameters.empty(), !o.probes.empty());
-  if (o.method == "path") refuse("--method", "path tracing");
+  if (o.method == "path") refuse("--method path", "path tracing");
   if (!gl_method(o.method))
     throw Error("--method " + o.method, "has no OpenGL version",
                 "take --backend cpu, or one of ssphh, vct, vpl, direct");

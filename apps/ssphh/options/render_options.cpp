@@ -23,6 +23,11 @@ std::vector<methods::Drawing> drawings_of(const RenderOptions& o) {
   return drawings;
 }
 
+std::string method_of(const RenderOptions& o) {
+  if (!o.method.empty()) return o.method;
+  return !o.probes.empty() || o.backend == RenderBackend::gl ? "ssphh" : "path";
+}
+
 void add_render_options(Command command, RenderOptions& o) {
   add_scene_options(command, o.scene);
   add_farm_options(command, o.farm);
@@ -33,7 +38,7 @@ void add_render_options(Command command, RenderOptions& o) {
     names.emplace_back(entry.name);
     description += fmt::format(" {} ({});", entry.name, entry.about);
   }
-  description.pop_back();
+  description += " default: ssphh with --probes or --backend gl, else path";
   command.option("--method", o.method, description).one_of(names);
   add_method_parameters(command, o.parameters);
   command

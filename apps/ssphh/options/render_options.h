@@ -27,7 +27,7 @@ constexpr auto enum_table(RenderBackend) {
 struct RenderOptions {
   SceneOptions scene;
   FarmChoice farm;                      ///< that traces, if there is any: for methods path and ssphh
-  std::string method = "path";          ///< what finds indirect light: path, or one of methods::all_methods()
+  std::string method;                   ///< what finds indirect light; empty: as method_of() says
   std::vector<std::string> parameters;  ///< of the method, as NAME=VALUE
   RenderBackend backend = RenderBackend::cpu;
   std::uint64_t seed = 0;
@@ -62,6 +62,9 @@ struct RenderOptions {
   int indirect_scale = 1;  ///< OpenGL looks indirect light up at every so-many-th pixel each way, 1..8
 };
 
+/// The method, path or one of methods::all_methods(): the given one, else ssphh where there are probes or
+/// OpenGL draws, else path.
+std::string method_of(const RenderOptions& options);
 /// Throws Error for a name that none has, with the nearest.
 std::vector<methods::Drawing> drawings_of(const RenderOptions& options);
 
