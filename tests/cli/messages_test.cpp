@@ -115,7 +115,7 @@ TEST_F(Messages, OfPictures) {
   with({"--broker", "nonsense"});
   with({"--method", "ssphh", "--lookup", "light", "--weights", "mls", "--probes", probes});
   with({"--method", "ssphh", "--weights", "fitted", "--probes", probes});
-  with({"--backend", "gl"});
+  with({"--backend", "gl", "--method", "path"});
   with({"--backend", "gl", "--method", "prt"});
   with({"--backend", "gl", "--method", "vpl", "--projection", "cube"});
   with({"--backend", "gl", "--method", "vpl", "--resume"});
