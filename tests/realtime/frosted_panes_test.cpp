@@ -1,9 +1,9 @@
 /// Rough panes as OpenGL draws them, pixel by pixel against path tracing.
 
-#include "glass_pixels.h"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+
+#include "glass_pixels.h"
 
 namespace ssphh::test {
 namespace {

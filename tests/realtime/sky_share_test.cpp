@@ -82,8 +82,8 @@ TEST_F(SkyShare, OfABallOnAWidePlainIsNoneBelowTheHorizon) {
   }
 }
 
-// A window 1 m wide. What 32 directions have of it is off by .99 of all light; five taps make a lobe of
-// steps, .33.
+// A window 1 m wide. What 32 directions have of it is off by .99 of all light, five ways about the mirrored
+// one by .47.
 TEST_F(SkyShare, OfAFloorMirrorsTheWindowWhereItIs) {
   add(scene::make_quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}), 0);
   add(scene::make_quad({-2, 3, 2}, {4, 0, 0}, {0, 0, -4}), 1);
@@ -102,7 +102,7 @@ TEST_F(SkyShare, OfAFloorMirrorsTheWindowWhereItIs) {
       all += p.traced.rgb(x, y);
     }
   }
-  for (int c = 0; c < 3; ++c) EXPECT_LT(off[c] / all[c], 0.6f) << c;
+  for (int c = 0; c < 3; ++c) EXPECT_LT(off[c] / all[c], 0.25f) << c;
 }
 
 }  // namespace

@@ -57,10 +57,8 @@ vec4 spread(Surface s) {
   vec4 table = albedo_entry(false, wo.z, min(s.specular_roughness, 1.0)), sum = vec4(0);
   float whole = 0;
   vec3 by_sheet = (table.x + table.y) * mix(s.f0, vec3(1), schlick_weight(wo.z));
-  ivec2 at = ivec2(gl_FragCoord.xy) & 3;
-  int number = ((at.x ^ at.y) & 1) << 3 | (at.y & 1) << 2 | ((at.x ^ at.y) & 2) | at.y >> 1;  // as a Bayer matrix has them
-  for (int i = 0; i < 16 * taps; i += 16) {
-    float u = (float(i + number) + 0.5) / float(16 * taps), angle = 2.39996323 * float(i + number);
+  for (int i = sample_number(ivec2(gl_FragCoord.xy)); i < 16 * taps; i += 16) {
+    float u = (float(i) + 0.5) / float(16 * taps), angle = GOLDEN_ANGLE * float(i);
     float tan2 = a2 * u / (1 - u), c = inversesqrt(1 + tan2);
     vec3 h = vec3(sqrt(tan2) * c * vec2(cos(angle), sin(angle)), c);
     float facing = dot(wo, h);

@@ -40,6 +40,15 @@ vec2 pixel_of(vec4 place) {
   return 0.5 * (plane + 1 + frame.shift.xy) * picture_size();
 }
 
+// 0..15 for each of 4 × 4 samples, as a Bayer matrix has them, and others in a picture that is shifted: what samples look at
+// in turns, pixels and smooth edges bring together.
+int sample_number(ivec2 at) {
+  at &= 3;
+  int number = ((at.x ^ at.y) & 1) << 3 | (at.y & 1) << 2 | ((at.x ^ at.y) & 2) | at.y >> 1;
+  return number + int(16 * hash01(uvec3(floatBitsToUint(frame.shift.xy), 0))) & 15;
+}
+const float GOLDEN_ANGLE = 2.39996323;
+
 float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 float max_component(vec3 v) { return max(v.x, max(v.y, v.z)); }
 

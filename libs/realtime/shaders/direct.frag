@@ -265,7 +265,7 @@ void main() {
   vec3 reflects = sum * scale;
 #endif
 #ifdef FULL_BSDF
-  float open = s.from_behind ? -1 : sky_share(s, mirror, 2 * bsdf.alpha);
+  float open = s.from_behind ? -1 : sky_share(s, bsdf.alpha);
   if (open < 0) open = around > 0 ? free / around : 1;
   reflects += bsdf.albedo * open * emitter.light.rgb * through_lobe(mirror, bsdf.roughness);
 #endif

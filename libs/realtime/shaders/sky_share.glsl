@@ -1,8 +1,10 @@
 // Whether a way out of a point leads to the sky, as the shadow maps of the SPHLs around tell it.
 #include "probe_places.glsl"
 
-const int SKY_SHARE_PROBES = 3, SKY_STEPS = 20, SKY_HALVINGS = 5;
+const int SKY_SHARE_PROBES = 3, SKY_TAPS = 5, SKY_STEPS = 20, SKY_HALVINGS = 5;
 const float SKY_STEP = 1.25, NO_SURFACE = 1e30;
+// How far aside, in spacings of SPHLs, samples look for those that tell.
+const float SKY_ASIDE = 0.3;
 
 // How far a probe sees in a direction.
 float probe_depth(int probe, vec3 d) {
@@ -37,29 +39,39 @@ float probe_sky(int probe, vec3 eye, vec3 x, vec3 d) {
   return sky;
 }
 
-// Share of the sky in a lobe around d, `wide` its half angle's tangent; below 0: no SPHL that x sees tells. What one of them sees
-// to be closed is: a step may miss what stands between.
-float sky_share(Surface s, vec3 d, float wide) {
-  int base = candidates_at(s.position), seen = 0;
+// Share of the sky in what microfacets of a GGX roughness mirror toward the eye; below 0: no SPHL that x sees tells. What one of
+// them sees to be closed is: a step may miss what stands between. Samples ask other microfacets, or steps of the lobe would show.
+float sky_share(Surface s, float alpha) {
   vec3 from = s.position + 2 * SIGHT_LIFT * frame.tone.w * s.geometric_normal;  // off the texels of its own surface
-  vec3 right = normalize(cross(d, abs(d.y) < 0.9 ? vec3(0, 1, 0) : vec3(1, 0, 0))) * wide, up = cross(right, d);
-  float share[5] = float[](-1, -1, -1, -1, -1);
+  mat3 basis = basis_around(s.normal);
+  vec3 ways[SKY_TAPS];
+  float share[SKY_TAPS];
+  int number = sample_number(ivec2(gl_FragCoord.xy)), seen = 0;
+  for (int tap = 0; tap < SKY_TAPS; ++tap) {
+    float u = (float(16 * tap + number) + 0.5) / float(16 * SKY_TAPS), angle = GOLDEN_ANGLE * float(16 * tap + number);
+    float slope = alpha * sqrt(u / (1 - u));
+    vec3 way = reflect(-s.wo, normalize(basis * vec3(slope * cos(angle), slope * sin(angle), 1)));
+    ways[tap] = dot(way, s.normal) > 0 ? way : reflect(-s.wo, s.normal);
+    share[tap] = -1;
+  }
+  float turn = GOLDEN_ANGLE * float(number), aside = SKY_ASIDE * frame.tone.w * sqrt((float(number) + 0.5) / 16);
+  vec3 place = s.position + basis_around(s.geometric_normal) * vec3(aside * cos(turn), aside * sin(turn), 0);
+  int base = candidates_at(place);
   for (int i = 0; i < frame.grid_size.w && seen < SKY_SHARE_PROBES; ++i) {
     vec4 near = candidate(base + i);
     if (near.w < 0) break;
-    vec3 away = near.xyz - s.position;
+    vec3 away = near.xyz - place;
     float far = length(away);
     if (!maybe_above(away, far * far, s)) continue;
-    if (!sees_probe(near.xyz, int(near.w), s.position, s.normal, s.geometric_normal, far)) continue;
-    for (int tap = 0; tap < 5; ++tap) {
-      vec3 aside = tap == 0 ? vec3(0) : (tap < 3 ? right : up) * (tap % 2 == 0 ? -1 : 1);
-      float sky = probe_sky(int(near.w), near.xyz, from, normalize(d + aside));
+    if (!sees_probe(near.xyz, int(near.w), place, s.normal, s.geometric_normal, far)) continue;
+    for (int tap = 0; tap < SKY_TAPS; ++tap) {
+      float sky = probe_sky(int(near.w), near.xyz, from, ways[tap]);
       share[tap] = share[tap] < 0 ? sky : sky < 0 ? share[tap] : min(share[tap], sky);
     }
     ++seen;
   }
   float sum = 0, said = 0;
-  for (int tap = 0; tap < 5; ++tap) {
+  for (int tap = 0; tap < SKY_TAPS; ++tap) {
     sum += max(share[tap], 0);
     said += share[tap] < 0 ? 0 : 1;
   }
