@@ -82,6 +82,20 @@ TEST_F(SkyShare, OfABallOnAWidePlainIsNoneBelowTheHorizon) {
   }
 }
 
+// A slope of a normal map, or a shading normal, mirrors the ground that it stands for.
+TEST_F(SkyShare, OfANormalThatLeansTooFarIsNone) {
+  scene::Mesh plate = scene::make_quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
+  for (vec3& normal : plate.normals) normal = glm::normalize(vec3(3, 0, 1));
+  add(plate, 0);
+  look({0, 0, 4}, {0, 0, 0});
+  scene::validate(scene);
+  realtime::Renderer renderer(gl(), scene, test::small_maps);
+  renderer.set_probes(test::made_up_probes(std::vector<vec3>{{-1, 0, 1}, {1, 0, 1}, {0, 1, 1.5f}}));
+  const image::Image drawn = test::drawn(renderer, scene, size);
+  const vec3 middle = mean(drawn, 26, 26, 38, 38), beside = mean(drawn, 0, 0, 4, 4);
+  for (int c = 0; c < 3; ++c) EXPECT_LT(middle[c], 0.01f * beside[c]) << c;
+}
+
 // A window 1 m wide. What 32 directions have of it is off by .99 of all light, five ways about the mirrored
 // one by .47.
 TEST_F(SkyShare, OfAFloorMirrorsTheWindowWhereItIs) {

@@ -224,8 +224,8 @@ vec3 diffusely(Surface s, vec3 wi) { return reflected(s, wi); }
 #endif
 
 // Irradiance by spherical harmonics, divided among directions with shadow maps. What the specular lobe mirrors comes from
-// tiles, dimmed by the share of the lobe that SPHLs see to be open; where none is in sight, and behind rough sheets, on which
-// their steps would show, by the share of the directions around the mirrored one that are free.
+// tiles, dimmed by the share of the lobe that SPHLs see to be open; where none is in sight, and behind rough sheets, where the
+// picture tells of most of the lobe, by the share of the directions around the mirrored one that are free.
 void main() {
   Surface s = read_surface(ivec2(gl_FragCoord.xy));
   prepare(s);

@@ -210,7 +210,11 @@ void main() {
 #else
   const bool wanted = true;
 #endif
-  Found found = look_up(s, reflect(-s.wo, s.normal), roughness, wanted);
+  vec3 mirror = reflect(-s.wo, s.normal);
+  Found found = look_up(s, mirror, roughness, wanted);
+  // A normal map's slope mirrors its own ground
+  float lobe = max(2 * roughness * roughness, 0.01);
+  found.glossy *= smoothstep(-lobe, 0, dot(mirror, s.geometric_normal));
 #ifdef FITTED
   found.irradiance = is_fitted ? fitted : found.irradiance;
 #endif
