@@ -267,7 +267,7 @@ void main() {
 #ifdef FULL_BSDF
   float open = s.from_behind ? -1 : sky_share(s, bsdf.alpha);
   if (open < 0) open = around > 0 ? free / around : 1;
-  reflects += bsdf.albedo * open * emitter.light.rgb * through_lobe(mirror, bsdf.roughness);
+  reflects += bsdf.albedo * above_ground(s, bsdf.roughness) * open * emitter.light.rgb * through_lobe(mirror, bsdf.roughness);
 #endif
   store(reflects, luminance(whole), luminance(lit * scale));
 }

@@ -40,6 +40,11 @@ vec3 position_at(vec2 pixel, float depth) {
 
 // Where nothing stands the results mean nothing.
 vec3 geometric_normal_at(ivec2 at) { return oct_decode(unpackSnorm2x16(texelFetch(gbuffer0, at, 0).y)); }
+// What is left of a lobe around the mirrored way: a slope of a normal map mirrors its own ground, which is none.
+float above_ground(Surface s, float roughness) {
+  float width = max(2 * roughness * roughness, 0.01);
+  return smoothstep(-width, 0, dot(reflect(-s.wo, s.normal), s.geometric_normal));
+}
 Surface read_surface(ivec2 at) {
   Surface s;
   vec2 pixel = vec2(at) + 0.5;

@@ -210,11 +210,8 @@ void main() {
 #else
   const bool wanted = true;
 #endif
-  vec3 mirror = reflect(-s.wo, s.normal);
-  Found found = look_up(s, mirror, roughness, wanted);
-  // A normal map's slope mirrors its own ground
-  float lobe = max(2 * roughness * roughness, 0.01);
-  found.glossy *= smoothstep(-lobe, 0, dot(mirror, s.geometric_normal));
+  Found found = look_up(s, reflect(-s.wo, s.normal), roughness, wanted);
+  found.glossy *= above_ground(s, roughness);
 #ifdef FITTED
   found.irradiance = is_fitted ? fitted : found.irradiance;
 #endif

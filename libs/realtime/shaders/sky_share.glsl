@@ -52,7 +52,7 @@ float sky_share(Surface s, float alpha) {
     float slope = alpha * sqrt(u / (1 - u));
     vec3 way = reflect(-s.wo, normalize(basis * vec3(slope * cos(angle), slope * sin(angle), 1)));
     ways[tap] = dot(way, s.normal) > 0 ? way : reflect(-s.wo, s.normal);
-    share[tap] = dot(ways[tap], s.geometric_normal) > 0 ? -1 : 0;  // a normal map's slope mirrors its own ground
+    share[tap] = -1;
   }
   float turn = GOLDEN_ANGLE * float(number), aside = SKY_ASIDE * frame.tone.w * sqrt((float(number) + 0.5) / 16);
   vec3 place = s.position + basis_around(s.geometric_normal) * vec3(aside * cos(turn), aside * sin(turn), 0);
@@ -65,7 +65,6 @@ float sky_share(Surface s, float alpha) {
     if (!maybe_above(away, far * far, s)) continue;
     if (!sees_probe(near.xyz, int(near.w), place, s.normal, s.geometric_normal, far)) continue;
     for (int tap = 0; tap < SKY_TAPS; ++tap) {
-      if (share[tap] == 0) continue;
       float sky = probe_sky(int(near.w), near.xyz, from, ways[tap]);
       share[tap] = share[tap] < 0 ? sky : sky < 0 ? share[tap] : min(share[tap], sky);
     }
