@@ -21,23 +21,6 @@ scene::Scene behind_frost(float roughness) {
   return s;
 }
 
-/// Mean difference from the truth, of its mean.
-double off(const image::Image& picture, const image::Image& truth) {
-  double sum = 0, all = 0;
-  for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
-    sum += static_cast<double>(std::abs(picture.pixels[i] - truth.pixels[i]));
-    all += static_cast<double>(truth.pixels[i]);
-  }
-  return sum / all;
-}
-
-vec3 sum_of(const image::Image& picture) {
-  vec3 sum(0);
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x) sum += picture.rgb(x, y);
-  return sum;
-}
-
 TEST_F(GlassPixels, RoughPanesSpreadWhatIsBehindThem) {
   const auto squares = [](float roughness) {
     scene::Scene s = behind_frost(roughness);

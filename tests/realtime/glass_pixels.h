@@ -1,6 +1,8 @@
 #pragma once
 /// Glass before a wall that glows, drawn by OpenGL.
 
+#include <cmath>
+
 #include <ssphh/shading/surface.h>
 
 #include "gl_context.h"
@@ -48,6 +50,23 @@ inline image::Image traced(const scene::Scene& scene, int max_depth, int spp = 6
   trace::RenderState state;
   trace::PathTracer(scene).render(params, state);
   return trace::resolve(state.color, 1);
+}
+
+inline vec3 sum_of(const image::Image& image) {
+  vec3 sum(0);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) sum += image.rgb(x, y);
+  return sum;
+}
+
+/// Mean difference from the truth, of its mean.
+inline double off(const image::Image& picture, const image::Image& truth) {
+  double sum = 0, all = 0;
+  for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+    sum += static_cast<double>(std::abs(picture.pixels[i] - truth.pixels[i]));
+    all += static_cast<double>(truth.pixels[i]);
+  }
+  return sum / all;
 }
 
 class GlassPixels : public WithGl {

@@ -68,13 +68,6 @@ TEST_F(GlassPixels, LightGoesThroughPanesAndIsHeldBackByWhatIsMostlyNone) {
   EXPECT_THAT(lit_through(veil).pixels, testing::Each(0));
 }
 
-vec3 sum_of(const image::Image& image) {
-  vec3 sum(0);
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) sum += image.rgb(x, y);
-  return sum;
-}
-
 /// The stage, with a tinted pane at a slant above it if `covered`, lit from over it: by the lamp, or without
 /// one by an even sky.
 scene::Scene under_a_pane(const scene::Light* lamp, bool covered) {
