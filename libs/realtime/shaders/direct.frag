@@ -224,8 +224,8 @@ vec3 diffusely(Surface s, vec3 wi) { return reflected(s, wi); }
 #endif
 
 // Irradiance by spherical harmonics, divided among directions with shadow maps. What the specular lobe mirrors comes from
-// tiles, dimmed by the share of the lobe that SPHLs see to be open; where none is in sight, and behind rough sheets, where the
-// picture tells of most of the lobe, by the share of the directions around the mirrored one that are free.
+// tiles, dimmed by the share of the lobe that SPHLs see to be open; where none is in sight, of wide lobes, and behind rough
+// sheets, where the picture tells of most, by the share of the directions around the mirrored one that are free.
 void main() {
   Surface s = read_surface(ivec2(gl_FragCoord.xy));
   prepare(s);
@@ -265,8 +265,10 @@ void main() {
   vec3 reflects = sum * scale;
 #endif
 #ifdef FULL_BSDF
-  float open = s.from_behind ? -1 : sky_share(s, bsdf.alpha);
-  if (open < 0) open = around > 0 ? free / around : 1;
+  // Of directions a wide lobe holds several, and SPHLs' opinions would leave patches in it
+  float open = around > 0 ? free / around : 1, by_probes = s.from_behind ? 0 : 1 - smoothstep(0.5, 0.75, bsdf.roughness);
+  float told = by_probes > 0 ? sky_share(s, bsdf.alpha) : -1;
+  open = told < 0 ? open : mix(open, told, by_probes);
   reflects += bsdf.albedo * above_ground(s, bsdf.roughness) * open * emitter.light.rgb * through_lobe(mirror, bsdf.roughness);
 #endif
   store(reflects, luminance(whole), luminance(lit * scale));
