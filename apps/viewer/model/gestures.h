@@ -2,9 +2,9 @@
 /// What keys and the mouse do to the view and to what is shown: pure functions. Keys are named by the capital
 /// letter, digit or sign on them.
 
+#include <array>
 #include <functional>
 #include <optional>
-#include <string_view>
 
 #include "settings.h"
 #include "view_camera.h"
@@ -25,8 +25,9 @@ View dragged(const View& view, ViewDrag drag, const vec2& pixels, float height);
 /// The wheel turned forward by so many notches: each leaves 0.9 of the distance to the focus.
 View wheeled(const View& view, float notches);
 
-/// The keys that change settings.
-inline constexpr std::string_view setting_keys = " PLGTJKUM12345678[]\\";
+/// The keys that change settings. Their own storage: a literal may be another one in each file.
+inline constexpr std::array setting_keys = {' ', 'P', 'L', 'G', 'T', 'J', 'K', 'U', 'M', '1',
+                                            '2', '3', '4', '5', '6', '7', '8', '[', ']', '\\'};
 
 /// The settings once one of `setting_keys` was pressed: P balls, L lobes (with balls), G graph, T the next
 /// comparison with the truth, J the histogram, U the waveform, K false colours, M one view, two or four, 1 to
