@@ -227,7 +227,6 @@ class App : public Pane {
   bool current() const;
   /// current(), and edges as smooth as they get.
   bool settled() const;
-  static constexpr int smooth_pictures = 16;  ///< in the mean of a picture that stands still
   bool scene_open() const { return document.scene != nullptr; }
   /// The geometry for picking; null while the light is being built for the first time.
   const trace::TransportScene* picking() const { return picking_ ? picking_.get() : nullptr; }
@@ -329,15 +328,11 @@ class App : public Pane {
   void draw_pictures();
   /// Begins or continues the pane's picture, or one for its smooth edges; whether there was something to do.
   bool work_on_picture(bool smooth);
-  /// As place_in_pixel() counts, of the picture that is whole and the last in the mean.
-  int last_place() const;
   void begin_drawing(const Drawing& drawing, const realtime::FrameSettings& how);
   void draw_views();
   void begin_picture();
   void continue_picture();
-  /// Shows a picture that lacks no more than the exposure and curve of now with these; false: it lacks more.
   bool show_tone_again();
-  void show_first_exposure();
   void finish_picture(const Drawing& done);
   void show_finished();
   void draw_balls();

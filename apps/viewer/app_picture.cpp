@@ -159,6 +159,7 @@ void App::begin_picture() {
   screen.scene_dirty = screen.is_new = false;
 }
 
+/// Shows a picture that lacks no more than the exposure and curve of now with these; false: it lacks more.
 bool App::show_tone_again() {
   if (!screen.drawn || screen.drawing || screen.linear_file || rendered_ != place ||
       !same_but_for_tone(screen.drawn->settings, settings))
@@ -188,13 +189,6 @@ void App::continue_picture() {
   redraw();
 }
 
-/// Drawn before anybody knew what suits it, a scene's first picture is shown as suits it.
-void App::show_first_exposure() {
-  if (!follows_exposure || !exposure_.is_first() || !follow_exposure()) return;
-  renderer_->show_again(shown_tone(settings));
-  screen.drawn->settings.exposure = settings.exposure;
-}
-
 void App::finish_picture(const Drawing& done) {
   if (screen.linear_file && screen.linear_file->begun) screen.linear_file->mean.add(renderer_->read_back());
   if (done.smooth) {
@@ -210,7 +204,11 @@ void App::finish_picture(const Drawing& done) {
       times.add(pass.name, std::max(pass.cpu_ms, pass.gpu_ms));
     // Not of those that follow for the mean: a moved one may stand on the other side of a quarter.
     screen.suits = suitable_exposure();
-    show_first_exposure();
+    // Drawn before anybody knew what suits it, a scene's first picture is shown as suits it
+    if (follows_exposure && exposure_.is_first() && follow_exposure()) {
+      renderer_->show_again(shown_tone(settings));
+      screen.drawn->settings.exposure = settings.exposure;
+    }
   }
   show_finished();
 }

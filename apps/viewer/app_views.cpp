@@ -89,10 +89,6 @@ bool App::work_on_picture(bool smooth) {
   return true;
 }
 
-int App::last_place() const {
-  return (screen.first_place + std::max(picture.averaged() - 1, 0)) % smooth_pictures;
-}
-
 void App::begin_drawing(const Drawing& drawing, const realtime::FrameSettings& how) {
   for (Pane& other : others) other.screen.drop_drawing();
   picture.begin(*renderer_, pose_of(view), how, drawing.smooth);

@@ -1,6 +1,7 @@
 #pragma once
 /// One of the views that stand side by side.
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -28,6 +29,11 @@ struct Pane {
   std::unique_ptr<OutlineGl> outline_gl;
   bool beside = false;  ///< another view is the one at work
 
+  static constexpr int smooth_pictures = 16;  ///< in the mean of a picture that stands still
+  /// As place_in_pixel() counts, of the picture that is whole and the last in the mean.
+  int last_place() const {
+    return (screen.first_place + std::max(picture.averaged() - 1, 0)) % smooth_pictures;
+  }
   bool drawing() const { return screen.drawing || screen.waiting_maps > 0; }
   /// Whether the picture is that of now.
   bool shows(const Settings& settings) const {
