@@ -80,6 +80,38 @@ TEST_F(ProbeExportTool, GroupsApart) {
   EXPECT_THAT(problem_here(to("csv", {"--group", "moon"})), HasSubstr("none of: lamp, the sun"));
 }
 
+// An engine blends keys number by number: that the cells of a grid of its own would lie elsewhere, as its
+// door does not stand in the wall's gap, must not matter.
+TEST_F(ProbeExportTool, KeysHaveTheSameCells) {
+  probes::ProbeSet open = probes::read_probe_file(file_);
+  open.generator.time = 1;
+  for (probes::Probe& probe : open.probes) probe.groups[0].reflected[0] = vec3(5, 6, 7);
+  probes::merge_groups(open);
+  const std::string other = dir_ / "b.sphl";
+  probes::write_probe_file(open, other);
+  const auto keys = [&](const std::string& files, const std::string& target) {
+    std::vector<std::string> line = to(target);
+    line[2] = files;
+    return line;
+  };
+  const auto header = [&](const std::string& name) { return json::parse(read_text_file(dir_ / name), name); };
+
+  const json::Value said = json_here(keys(other + "," + file_, "three"));  // in whatever order
+  ASSERT_EQ(said["files"].size(), 4u);
+  EXPECT_EQ(said["key_times"], json::Value::array({0, 1}));
+  EXPECT_THAT(json::print(said["lost"]), Not(HasSubstr("other poses")));
+  const json::Value shut = header("out-key0.json"), ajar = header("out-key1.json");
+  for (const char* part : {"min", "max", "resolution"}) EXPECT_EQ(shut[part], ajar[part]) << part;
+  EXPECT_EQ(shut["texture"]["file"].string(), "out-key0.bin");
+  EXPECT_NE(read_text_file(dir_ / "out-key0.bin"), read_text_file(dir_ / "out-key1.bin"));
+  json_here(keys(other, "three"));
+  EXPECT_NE(header("out.json")["min"], shut["min"]);
+
+  json_here(keys(file_ + "," + other, "csv"));
+  EXPECT_THAT(read_text_file(dir_ / "out-key1.csv"), HasSubstr(",6,8,10,0,0,0"));
+  EXPECT_THAT(problem_here(keys(file_ + "," + other + "@0", "csv")), HasSubstr("is a key at 0 s"));
+}
+
 TEST_F(ProbeExportTool, ListNeedsNothing) {
   const json::Value list = json_here({"probe", "export", "--list"});
   EXPECT_EQ(list["targets"].size(), 9u);

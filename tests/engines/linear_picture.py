@@ -1,4 +1,5 @@
-"""Takes the picture out of a page that three.html left: linear_picture.py PAGE OUT.hdr (RGBE, not packed)."""
+"""Takes the picture out of a page that three.html left: linear_picture.py PAGE OUT.hdr (RGBE, not packed); or tells the mean of one in shares
+of another's: linear_picture.py PAGE PAGE."""
 
 import math
 import pathlib
@@ -6,11 +7,20 @@ import re
 import sys
 
 WIDTH, HEIGHT = 480, 270
-page = pathlib.Path(sys.argv[1]).read_text()
-found = re.search(r"LINEAR ([-\d.e+ ]+) END", page)
-if not found:
-    sys.exit(f"{sys.argv[1]}: holds no picture: {page[page.find('ERROR'):][:300]}")
-values = [float(word) for word in found[1].split()]
+
+
+def picture_in(page):
+    text = pathlib.Path(page).read_text()
+    found = re.search(r"LINEAR ([-\d.e+ ]+) END", text)
+    if not found:
+        sys.exit(f"{page}: holds no picture: {text[text.find('ERROR'):][:300]}")
+    return [float(word) for word in found[1].split()]
+
+
+values = picture_in(sys.argv[1])
+if sys.argv[2].endswith(".html"):
+    print(f"{sum(values) / sum(picture_in(sys.argv[2])):.2e}")
+    sys.exit()
 pixels = bytearray()
 for i in range(0, len(values), 3):
     colour = values[i:i + 3]

@@ -3,9 +3,11 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <ssphh/core/file.h>
 #include <ssphh/core/parse_number.h>
+#include <ssphh/probes/keyed_files.h>
 #include <ssphh/probes/probe_file.h>
 #include <ssphh/trace/transport_scene.h>
 
@@ -21,6 +23,15 @@ float spacing_of(const std::string& grid) {
   if (!metres || !(*metres > 0) || !std::isfinite(*metres))
     throw Error("--grid " + grid, "is neither auto nor a length in metres", "write 0.5, for instance");
   return *metres;
+}
+
+/// One, or those of keys by their time.
+std::vector<probes::KeyedSet> sets_of(const std::string& input) {
+  const std::vector<probes::ProbeKey> keys = probes::read_probe_keys(input);
+  if (keys.size() > 1) return probes::read_keyed_sets(keys);
+  probes::ProbeSet set = probes::read_probe_file(keys.front().file);
+  const float time = set.generator.time;
+  return {{time, std::move(set)}};
 }
 
 std::string without_ending(std::string name, std::string_view ending) {
@@ -70,17 +81,26 @@ ProbeExportResult run_probe_export(const ProbeExportOptions& o, const Control& c
   const probe_export::Target& target = probe_export::find_target(o.to);
   check(o, target);
   const float spacing = spacing_of(o.grid);
-  const probes::ProbeSet set = probes::read_probe_file(o.input);
+  const std::vector<probes::KeyedSet> sets = sets_of(o.input);
+  const bool keyed = sets.size() > 1;
   const scene::Scene scene = load_lit_scene(o.scene);
   const trace::TransportScene rays(scene);
-  require_same_scene(o.input, set, scene, rays.light_groups(), {}, o.force);
+  for (const probes::KeyedSet& key : sets)
+    require_same_scene(o.input, key.set, scene, rays.light_groups(), {}, o.force);
 
+  const probes::ProbeLight part = o.emitted ? probes::ProbeLight::all : probes::ProbeLight::reflected;
+  probe_export::GridParams grid;
+  grid.spacing = spacing;
+  // Of the first pose for all, so that an engine can blend them number by number
+  std::optional<probe_export::GridShape> shape;
+  if (keyed && target.grid) {
+    const probes::ProbeSet& first = sets.front().set;
+    shape = probe_export::fit_grid(first, probe_export::FreeLight(first, rays, part), grid);
+  }
   const std::string stem = without_ending(o.output, target.ending);
   ProbeExportResult result;
   const auto write = [&](const probes::ProbeSet& light, const std::string& path) {
-    probe_export::ExportSource source{light, rays};
-    if (o.emitted) source.light = probes::ProbeLight::all;
-    source.grid.spacing = spacing;
+    const probe_export::ExportSource source{light, rays, part, grid, shape};
     const probe_export::Exported exported =
         target.write(source, std::filesystem::path(path).filename().string(), control);
     for (const probe_export::ExportFile& file : exported.files) {
@@ -89,12 +109,16 @@ ProbeExportResult run_probe_export(const ProbeExportOptions& o, const Control& c
       write_file(result.files.back(), file.data);
     }
     result.points = exported.points, result.filled = exported.filled, result.notes = exported.notes;
-    result.lost = probe_export::lost(light, target);
+    result.lost = probe_export::lost(light, target, keyed);
   };
-  const std::vector<std::string> groups = groups_of(o, set);
-  for (const std::string& group : groups)
-    write(probe_export::only_group(set, group), stem + "-" + plain(group));
-  if (groups.empty()) write(set, stem);
+  const std::vector<std::string> groups = groups_of(o, sets.front().set);
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    const std::string path = keyed ? fmt::format("{}-key{}", stem, k) : stem;
+    if (keyed) result.key_times.push_back(sets[k].time);
+    for (const std::string& group : groups)
+      write(probe_export::only_group(sets[k].set, group), path + "-" + plain(group));
+    if (groups.empty()) write(sets[k].set, path);
+  }
   return result;
 }
 
@@ -115,6 +139,7 @@ json::Value to_json(const ProbeExportResult& result, const ProbeExportOptions& o
           {"points", result.points},
           {"filled", result.filled},
           {"bytes", result.bytes},
+          {"key_times", result.key_times},
           {"lost", result.lost},
           {"notes", result.notes}};
 }
@@ -131,6 +156,9 @@ std::string to_text(const ProbeExportResult& result, const ProbeExportOptions& o
   for (const std::string& file : result.files) text += file + "\n";
   text += fmt::format("{} points ({} within bodies, out of sight or added: light of neighbours), {} bytes",
                       result.points, result.filled, result.bytes);
+  if (!result.key_times.empty())
+    text += fmt::format("\nkeys 0 to {}: light at {:g} s", result.key_times.size() - 1,
+                        fmt::join(result.key_times, ", "));
   for (const std::string& line : result.notes) text += "\nnote: " + line;
   for (const std::string& line : result.lost) text += "\nnot carried: " + line;
   return text;
@@ -139,7 +167,10 @@ std::string to_text(const ProbeExportResult& result, const ProbeExportOptions& o
 void add_probe_export_command(Command group, Context& context) {
   auto [command, o] =
       add_command(group, context, "export", "Write a probe file's light for an engine", run_probe_export);
-  add_probe_file(command, "FILE", o.input, "Probe file");
+  add_probe_keys(
+      command, "FILE", o.input,
+      "Probe file; several, as a.sphl@0,b.sphl@1, are keys of light that moves: OUT-key0, OUT-key1 "
+      "…, grids of the same cells");
   add_scene_options(command, o.scene, false, "--scene");
   command["--scene"].required(false);
   std::vector<std::string> names;

@@ -23,7 +23,7 @@ constexpr auto enum_table(GroupFiles) {
 
 struct ProbeExportOptions {
   SceneOptions scene;              ///< in which the probes were baked; its time is not read
-  std::string input;               ///< probe file to read
+  std::string input;               ///< probe file to read, or keys as probes::read_probe_keys() has them
   std::string to;                  ///< one of probe_export::targets()
   std::string output;              ///< file to write; the target's ending is added where it is missing
   std::string grid = "auto";       ///< metres between the points of a grid, or auto
@@ -38,6 +38,7 @@ struct ProbeExportResult {
   std::vector<std::string> files;
   std::size_t points = 0, filled = 0;  ///< as probe_export::Exported, of one file
   std::uint64_t bytes = 0;             ///< of all files
+  std::vector<float> key_times;        ///< of OUT-key0, OUT-key1 … [s]; empty: one file was read
   std::vector<std::string> lost, notes;
 };
 

@@ -25,15 +25,18 @@ std::string probe_keys_problem(const std::string& text) {
 
 }  // namespace
 
+Option add_probe_keys(const Command& command, const std::string& names, std::string& files,
+                      const std::string& help) {
+  return command.option(names, files, help).check(probe_keys_problem, ".sphl|.sphl.json");
+}
+
 Option add_keyed_probes(const Command& command, const std::string& names, std::string& files,
                         const std::string& help) {
-  return command
-      .option(
-          names, files,
-          help +
-              "; several, as a.sphl@0,b.sphl@1, are keys whose light is blended at --time [s] (without @: at "
-              "that of their bake)")
-      .check(probe_keys_problem, ".sphl|.sphl.json");
+  return add_probe_keys(
+      command, names, files,
+      help +
+          "; several, as a.sphl@0,b.sphl@1, are keys whose light is blended at --time [s] (without @: at "
+          "that of their bake)");
 }
 
 Option add_probe_file(const Command& command, const std::string& names, std::string& file,

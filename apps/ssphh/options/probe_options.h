@@ -18,7 +18,9 @@ Option add_probe_file(const Command& command, const std::string& names, std::str
 Option add_probe_files(const Command& command, const std::string& names, std::vector<std::string>& files,
                        const std::string& help);
 
-/// A probe file or keys, as probes::read_probe_keys() has them.
+/// A probe file or keys, as probes::read_probe_keys() has them; the second: whose light is blended at --time.
+Option add_probe_keys(const Command& command, const std::string& names, std::string& files,
+                      const std::string& help);
 Option add_keyed_probes(const Command& command, const std::string& names, std::string& files,
                         const std::string& help);
 

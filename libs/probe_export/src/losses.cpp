@@ -22,7 +22,7 @@ probes::ProbeSet only_group(probes::ProbeSet set, const std::string& group) {
   return set;
 }
 
-std::vector<std::string> lost(const probes::ProbeSet& set, const Target& target) {
+std::vector<std::string> lost(const probes::ProbeSet& set, const Target& target, bool posed) {
   std::vector<std::string> lines;
   const auto say = [&](bool whether, std::string line) {
     if (whether) lines.push_back(std::move(line));
@@ -46,7 +46,7 @@ std::vector<std::string> lost(const probes::ProbeSet& set, const Target& target)
   say(probes::edge_count(set) > 0,
       counted(probes::edge_count(set), "edge between probes", "edges between probes"));
   say(set.hierarchy.has_value(), "the hierarchy apart: neighbours' light is in the sum");
-  say(true, fmt::format("other poses than that at {:g} s", set.generator.time));
+  say(!posed, fmt::format("other poses than that at {:g} s", set.generator.time));
   say(!target.hides, "visibility: the engine does not ask what stands between a point and what lights it");
   return lines;
 }

@@ -91,7 +91,8 @@ std::vector<sh::RadianceSh> written_light(const ExportSource& source) {
 
 LightGrid make_grid(const ExportSource& source, const Control& control) {
   const FreeLight light(source.set, source.scene, source.light);
-  return resample(source.set, light, source.scene, fit_grid(source.set, light, source.grid), control);
+  const GridShape shape = source.shape ? *source.shape : fit_grid(source.set, light, source.grid);
+  return resample(source.set, light, source.scene, shape, control);
 }
 
 }  // namespace ssphh::probe_export

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,6 +20,7 @@ struct ExportSource {
   const rays::TransportSource& scene;
   probes::ProbeLight light = probes::ProbeLight::reflected;
   GridParams grid = {};
+  std::optional<GridShape> shape = {};  ///< the grid's cells; none: such as fit the set by `grid`
 };
 
 struct ExportFile {
@@ -54,8 +56,8 @@ const Target& find_target(std::string_view name);
 probes::ProbeSet only_group(probes::ProbeSet set, const std::string& group);
 
 /// What of the set the target cannot carry or the user must know, one line each: degrees, groups, poses,
-/// records, weights, edges, baked groups.
-std::vector<std::string> lost(const probes::ProbeSet& set, const Target& target);
+/// records, weights, edges, baked groups. `posed`: sets of other poses are exported beside it.
+std::vector<std::string> lost(const probes::ProbeSet& set, const Target& target, bool posed = false);
 
 /// Bytes of a half float for each value. Throws Error(what, ...) for a value that has none: beyond 65504.
 void write_half(ByteWriter& out, float value, const char* what);
