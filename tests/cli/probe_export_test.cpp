@@ -109,6 +109,11 @@ TEST_F(ProbeExportTool, KeysHaveTheSameCells) {
 
   json_here(keys(file_ + "," + other, "csv"));
   EXPECT_THAT(read_text_file(dir_ / "out-key1.csv"), HasSubstr(",6,8,10,0,0,0"));
+  // One editor script for all: two would define the same class.
+  const json::Value unity = json_here(keys(file_ + "," + other, "unity"));
+  EXPECT_EQ(unity["files"],
+            json::Value::array({std::string(dir_ / "out-key0.json"), std::string(dir_ / "out.cs"),
+                                std::string(dir_ / "out-key1.json")}));
   EXPECT_THAT(problem_here(keys(file_ + "," + other + "@0", "csv")), HasSubstr("is a key at 0 s"));
 }
 

@@ -1,5 +1,6 @@
 #include "commands/probe_export.h"
 
+#include <algorithm>
 #include <set>
 
 #include <fmt/format.h>
@@ -104,7 +105,10 @@ ProbeExportResult run_probe_export(const ProbeExportOptions& o, const Control& c
     const probe_export::Exported exported =
         target.write(source, std::filesystem::path(path).filename().string(), control);
     for (const probe_export::ExportFile& file : exported.files) {
-      result.files.push_back(path + (file.ending.empty() ? std::string(target.ending) : file.ending));
+      const std::string name =
+          (file.shared ? stem : path) + (file.ending.empty() ? std::string(target.ending) : file.ending);
+      if (file.shared && std::ranges::find(result.files, name) != result.files.end()) continue;
+      result.files.push_back(name);
       result.bytes += file.data.size();
       write_file(result.files.back(), file.data);
     }

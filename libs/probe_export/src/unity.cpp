@@ -25,7 +25,7 @@ Exported write_unity(const ExportSource& source, const std::string&, const Contr
                             {"version", 1},
                             {"positions", std::move(positions)},
                             {"light", std::move(numbers)}};
-  return {{{"", bytes_of(json::print(file) + "\n")}, {".cs", bytes_of(unity_script)}},
+  return {{{"", bytes_of(json::print(file) + "\n")}, {".cs", bytes_of(unity_script), true}},
           light.size(),
           0,
           {"lights dynamic objects alone: Unity takes lightmaps for static ones"}};

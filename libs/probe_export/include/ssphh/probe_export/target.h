@@ -26,6 +26,7 @@ struct ExportSource {
 struct ExportFile {
   std::string ending;  ///< of the name that was asked for, in place of the target's own; "" is that
   std::vector<std::byte> data;
+  bool shared = false;  ///< holds no light: one serves all light groups and keys
 };
 
 struct Exported {
