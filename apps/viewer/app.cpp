@@ -217,7 +217,9 @@ void App::apply_lamps() {
   screen.scene_dirty = true;
 }
 
+/// What a slider changes that is still held is seen at once; light that takes long follows when it is let go.
 void App::update_light() {
+  if (holds_slider() && light.follows_slowly(document)) return;
   const ProbeLight::Update update = light.update(document, settings, *renderer_);
   if (!update.relit && !update.replaced) return;
   screen.scene_dirty = screen.balls_dirty = true;

@@ -316,7 +316,7 @@ class App : public Pane {
   void update_light();
   void finish_frame();
   void update_title();
-  bool by_hand() const;
+  bool by_hand() const, holds_slider() const;
   void leave();
   bool keeps() const { return autosave_.keeps() && by_hand(); }
 

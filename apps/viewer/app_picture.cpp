@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <imgui.h>
 
 #include <ssphh/image/exposure.h>
 #include <ssphh/rays/posed_world.h>
@@ -21,11 +22,16 @@ bool change(float& value, float now) {
 
 }  // namespace
 
+bool App::holds_slider() const {
+  return by_hand() && ImGui::IsAnyItemActive() && ImGui::IsAnyMouseDown();
+}
+
 /// A software renderer takes a second for a large picture: while something moves it gets a small one, and
 /// what nobody saw yet, a scene or its light, is shown small first, until its exposure is there.
 void App::resize_picture() {
   constexpr float large = 2e5f;  // pixels
-  const bool moving = drag.changes_picture() || settings.play || path_plays;
+  const bool slides = holds_slider() && (screen.coarse || renderer_->lighting() != document.lighting());
+  const bool moving = drag.changes_picture() || settings.play || path_plays || slides;
   const bool waits = light.empty() && job.running();  // its light will be there soon
   const bool soon = (screen.is_new || waits) && by_hand() && viewport.width * viewport.height > large;
   const bool slow = screen.drawn ? last_stats.cpu_ms > 80 : gl_->info().software;

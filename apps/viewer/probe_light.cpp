@@ -20,6 +20,7 @@ void ProbeLight::take(std::shared_ptr<LiveLight> live) {
     }
   }
   live_ = std::move(live);
+  moved_ms_ = live_->first_update_ms();
   keys_.clear();
   set_ = live_->probes();
   for (std::size_t i = 0; i < edges.size(); ++i) set_->probes[i].edges = std::move(edges[i]);
@@ -89,14 +90,27 @@ void ProbeLight::take_edges(std::size_t i, std::vector<probes::Edge> edges) {
   light_new_ = true;
 }
 
+bool ProbeLight::follows_slowly(const Document& document) const {
+  return live_ && moved_ms_ > patience_ms && moves(document.lighting());
+}
+
+/// Whether more than groups' factors are others than those that were brought.
+bool ProbeLight::moves(scene::LightingState state) const {
+  if (!lighting_) return false;
+  state.group_scales = lighting_->group_scales;
+  return state != *lighting_;
+}
+
 bool ProbeLight::relight(const Document& document) {
   scene::LightingState state = document.lighting();
   if (lighting_ == state) return false;
   if (live_) {
     // Until it is built anew for other lamps it holds still.
     if (!document.lamps_are_of(live_->scene())) return false;
+    const Stopwatch watch;
     report_ = live_->update(state);
     live_->refresh(*set_);
+    if (moves(state)) moved_ms_ = watch.milliseconds();
   } else {
     const std::vector<vec3>& scales = state.group_scales;
     const bool played = follow_keys(state.time);

@@ -57,12 +57,18 @@ class ProbeLight {
     bool replaced = false;  ///< places changed
     double relight_ms = 0, hier_ms = 0, upload_ms = 0;
   };
+  /// Whether update() would take longer than `patience_ms` to follow lamps, doors or surroundings, as far as
+  /// the last time tells, or the time that finding the light took. Groups that are dimmed alone are quick.
+  bool follows_slowly(const Document& document) const;
+  double patience_ms = 100;
+
   /// Brings light, hierarchy and the renderer up to date with the document and settings. Cheap when nothing
   /// changed.
   Update update(const Document& document, const Settings& settings, realtime::Renderer& renderer);
 
  private:
   bool relight(const Document& document);
+  bool moves(scene::LightingState state) const;
   /// Takes the light of the keys at a time, if there are keys and it is another time; whether it did.
   bool follow_keys(float time);
   /// Groups of a file that are `diffuse` are so as long as surroundings and pose are as baked.
@@ -75,6 +81,7 @@ class ProbeLight {
   std::optional<probes::ProbeSet> set_;
   std::string origin_, unsaved_;
   int works_ = 0;
+  double moved_ms_ = 0;  ///< that live light took the last time more than groups' factors had changed
   transport::RelightReport report_;
   probes::FittedSurfaces fitted_;
   probes::SurfaceLists records_;

@@ -31,7 +31,8 @@ class LiveLight {
 
   const transport::RelightSession& session() const { return *session_; }
   const scene::Scene& scene() const { return *scene_; }
-  bool is_glance() const { return glance_; }  ///< not the whole light that was asked for
+  double first_update_ms() const { return first_update_ms_; }  ///< to light everything
+  bool is_glance() const { return glance_; }                   ///< not the whole light that was asked for
   const trace::TransportScene& source() const { return source_; }
 
   /// A set of these places that holds the reflected light as it is now, groups merged into one.
@@ -44,6 +45,7 @@ class LiveLight {
  private:
   std::shared_ptr<const scene::Scene> scene_;
   bool glance_;
+  double first_update_ms_ = 0;
   trace::TransportScene source_;
   std::optional<transport::RelightSession> session_;
 };
