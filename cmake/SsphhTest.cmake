@@ -3,9 +3,12 @@
 #
 # gtest_discover_tests of CMake starts a process for each test: what a suite makes once for all of its tests (a bake, a context
 # of OpenGL with its shaders) would be made for each of them.
+set(SSPHH_TEST_OPTIONS "" CACHE STRING "Compile options of test programs, behind all others: with -Og they are compiled in half of the time that -O3 takes, and run as long")
+
 function(ssphh_test name)
   cmake_parse_arguments(ARG "TOGETHER" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
+  target_compile_options(${name} PRIVATE ${SSPHH_TEST_OPTIONS})
   target_link_libraries(${name} PRIVATE ${ARG_LINK} ssphh_test_support GTest::gmock_main ssphh_compile_options)
   ssphh_unity(${name})
   # Read by ctest, which asks the program itself: there is none yet when CMake runs.

@@ -71,6 +71,8 @@ TEST_F(ProbeTool, ConvertKeepsLowBandsAlone) {
 TEST_F(ProbeTool, ConvertRefusesWhatAPackingDoesNotHold) {
   EXPECT_THAT(problem_here({"probe", "convert", file_, "-o", out_, "--pack", "zh3"}),
               HasSubstr("zh3 is of degree 2, not 1"));
+  EXPECT_THAT(problem_here({"probe", "convert", file_, "-o", out_, "--pack", "bc6h", "--degree", "1"}),
+              HasSubstr("bc6h is of degree 2 or 4, not 1"));
   EXPECT_THAT(problem_here({"probe", "convert", file_, "-o", out_, "--degree", "2"}),
               HasSubstr("is of degree 1: there is no band 2"));
   EXPECT_THAT(problem_here({"probe", "convert", file_, "-o", dir_ / "b.sphl.json", "--pack", "half"}),

@@ -16,12 +16,16 @@ namespace ssphh::app {
 namespace {
 
 int degree_to_keep(const ProbeConvertOptions& o, int of_file) {
-  const int degree = o.degree.value_or(o.pack == sh::Packing::zh3 ? std::min(2, of_file) : of_file);
+  int highest = of_file;
+  while (highest >= 0 && !sh::packs(o.pack, highest)) --highest;
+  const int degree = o.degree.value_or(highest < 0 ? of_file : highest);
   if (degree > of_file)
     throw Error(o.input, fmt::format("is of degree {}: there is no band {}", of_file, degree),
                 "leave --degree out, or choose a lower one");
   if (!sh::packs(o.pack, degree))
-    throw Error("--pack", fmt::format("{} is of degree 2, not {}", name_of(o.pack), degree),
+    throw Error("--pack",
+                fmt::format("{} is of degree {}, not {}", name_of(o.pack),
+                            o.pack == sh::Packing::zh3 ? "2" : "2 or 4", degree),
                 degree < 2 ? "rgb9e5 is as small for fewer bands" : "leave --degree out");
   return degree;
 }
@@ -33,8 +37,9 @@ std::uint64_t light_bytes(const probes::ProbeSet& set, sh::Packing pack) {
   return functions * sh::packed_bytes(pack, set.degree);
 }
 
-std::vector<std::string> left_out(const ProbePackingLoss& loss, int degree) {
+std::vector<std::string> left_out(const ProbePackingLoss& loss, sh::Packing pack, int degree) {
   std::vector<std::string> lines;
+  if (pack == sh::Packing::bc6h && degree > 2) lines.push_back("band 3, which irradiance does not have");
   if (degree < loss.degree)
     lines.push_back(degree + 1 == loss.degree ? fmt::format("band {}", loss.degree)
                                               : fmt::format("bands {} to {}", degree + 1, loss.degree));
@@ -74,7 +79,7 @@ json::Value to_json(const ProbeConvertResult& result, const ProbeConvertOptions&
                         {"light_bytes", result.light_bytes}};
   if (!result.loss) return object;
   json::Value lines = json::Value::array();
-  for (const std::string& line : left_out(*result.loss, result.degree)) lines.push_back(line);
+  for (const std::string& line : left_out(*result.loss, o.pack, result.degree)) lines.push_back(line);
   const probes::IrradianceLoss& irradiance = result.loss->irradiance;
   object["left_out"] = std::move(lines);
   object["irradiance_error"] = {{"mean", to_json(irradiance.mean)},
@@ -98,7 +103,7 @@ std::string to_text(const ProbeConvertResult& result, const ProbeConvertOptions&
   text += fmt::format(
       "\nirradiance is off by (R, G, B, in shares of each probe's mean)\n  mean  {}\n  95 %  {}\n  most  {}",
       percent(loss.irradiance.mean), percent(loss.irradiance.most_of_95), percent(loss.irradiance.largest));
-  for (const std::string& line : left_out(loss, result.degree)) text += "\nleft out: " + line;
+  for (const std::string& line : left_out(loss, o.pack, result.degree)) text += "\nleft out: " + line;
   return text;
 }
 
@@ -108,9 +113,13 @@ void add_probe_convert_command(Command group, Context& context) {
                   "Convert between .sphl (binary) and .sphl.json, and to fewer bytes", run_probe_convert);
   add_probe_file(command, "FILE", o.input, "Probe file to read").required();
   add_probe_file(command, "-o,--output", o.output, "Probe file to write").required();
-  command.choice("--pack", o.pack,
-                 "How .sphl holds light: floats; half floats; RGB9E5 and bytes; the same of ZH3 (degree 2)");
-  command.option("--degree", o.degree, "Highest band to keep; default: the file's, of zh3 2")
+  command.choice(
+      "--pack", o.pack,
+      "How .sphl holds light: floats; half floats; RGB9E5 and bytes; the same of ZH3 (degree 2); maps of "
+      "irradiance in BC6H (degree 2 or 4)");
+  command
+      .option("--degree", o.degree,
+              "Highest band to keep; default: the file's, or the highest that the packing has")
       .range(0, sh::max_degree);
   command.footer(
       "With either, edges and the baseline are left out, and it is told how far irradiance is from the "

@@ -1,8 +1,7 @@
 #include "blend.h"
 
+#include <ssphh/core/octahedral.h>
 #include <ssphh/core/parallel.h>
-
-#include "octahedral.h"
 
 namespace ssphh::methods::ddgi {
 namespace {

@@ -6,9 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <ssphh/core/octahedral.h>
 #include <ssphh/core/sphere.h>
-
-#include "octahedral.h"
 
 namespace ssphh::methods::ddgi {
 namespace {

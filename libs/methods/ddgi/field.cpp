@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "octahedral.h"
+#include "texel_blend.h"
 
 namespace ssphh::methods::ddgi {
 

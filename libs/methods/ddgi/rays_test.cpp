@@ -4,13 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <ssphh/core/octahedral.h>
 #include <ssphh/core/sphere.h>
 #include <ssphh/scene/primitives.h>
 #include <ssphh/scene/scene.h>
 
 #include "error_message.h"
 #include "given_light.h"
-#include "octahedral.h"
 #include "ray_source.h"
 #include "reach.h"
 #include "triangle_source.h"

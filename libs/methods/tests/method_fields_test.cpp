@@ -5,13 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include <ssphh/core/octahedral.h>
 #include <ssphh/core/random.h>
 #include <ssphh/core/sphere.h>
 #include <ssphh/methods/vct/cone_light.h>
 #include <ssphh/probes/lookup.h>
 
 #include "ddgi/field.h"
-#include "ddgi/octahedral.h"
 #include "probe_volume/probe_volume.h"
 #include "varied_light.h"
 
@@ -32,9 +32,8 @@ struct Ddgi {
     field.bias = 0;
     for (int i = 0; i < field.grid.size(); ++i) {
       for (int t = 0; t < ddgi::DdgiField::irradiance_texels; ++t)
-        field.irradiance_of(i)[t] =
-            light_at(field.grid.position(i))
-                .irradiance(ddgi::octahedral_texel(t, ddgi::DdgiField::irradiance_size));
+        field.irradiance_of(i)[t] = light_at(field.grid.position(i))
+                                        .irradiance(octahedral_texel(t, ddgi::DdgiField::irradiance_size));
     }
   }
   ddgi::DdgiField field;

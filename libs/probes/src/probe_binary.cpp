@@ -342,7 +342,7 @@ ProbeSet probes_from_binary(std::span<const std::byte> data, const std::string& 
   if (checksum(payload) != sum) throw Error(where, "its checksum does not match", "the file is damaged");
 
   ByteReader in(payload, where + " payload");
-  const auto packing = static_cast<sh::Packing>(packed ? in.value_in<std::uint8_t>("packing", 1, 3) : 0);
+  const auto packing = static_cast<sh::Packing>(packed ? in.value_in<std::uint8_t>("packing", 1, 4) : 0);
   ProbeSet set = read_payload(in, packing);
   finish_reading(set, where);
   return set;

@@ -56,7 +56,7 @@ ProbeSet through(ProbeSet set, Packing packing) {
 }
 
 TEST(PackedFile, HoldsTheLightAsPackedAndEverythingElseAsItWas) {
-  for (const Packing packing : {Packing::half, Packing::rgb9e5, Packing::zh3}) {
+  for (const Packing packing : {Packing::half, Packing::rgb9e5, Packing::zh3, Packing::bc6h}) {
     const ProbeSet set = compact_set();
     const ProbeSet back = probes_from_binary(probes_to_binary(set, packing), "file");
     EXPECT_EQ(back, through(set, packing)) << name_of(packing);
@@ -78,7 +78,7 @@ TEST(PackedFile, TellsItsPackingAndItsBytes) {
   std::size_t functions = 3;
   for (const Probe& probe : set.probes)
     for (const GroupLight& light : probe.groups) functions += light.emitted.empty() ? 1 : 2;
-  for (const Packing packing : {Packing::half, Packing::rgb9e5, Packing::zh3}) {
+  for (const Packing packing : {Packing::half, Packing::rgb9e5, Packing::zh3, Packing::bc6h}) {
     write_probe_file(set, dir / "a.sphl", packing);
     EXPECT_EQ(packing_of_file(dir / "a.sphl"), packing);
     EXPECT_EQ(read_file(dir / "a.sphl").size(), plain + 1 - functions * (108 - sh::packed_bytes(packing, 2)));
@@ -137,7 +137,7 @@ TEST(PackedFile, EveryTruncationAndEveryFlippedBitIsAnError) {
 }
 
 TEST(PackedFile, HostileBytesWithARightChecksumAreAnErrorOrAValidSet) {
-  for (const Packing packing : {Packing::half, Packing::rgb9e5, Packing::zh3}) {
+  for (const Packing packing : {Packing::half, Packing::rgb9e5, Packing::zh3, Packing::bc6h}) {
     const std::vector<std::byte> bytes = probes_to_binary(compact_set(), packing);
     int errors = 0, total = 0;
     for (std::size_t at = 36; at < bytes.size(); ++at) {

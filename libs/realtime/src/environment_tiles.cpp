@@ -5,12 +5,12 @@
 #include <span>
 #include <vector>
 
+#include <ssphh/core/octahedral.h>
 #include <ssphh/core/parallel.h>
 #include <ssphh/image/sphere_map.h>
 
 #include "emitter_samples.h"
 #include "gpu_types.h"
-#include "octahedral.h"
 
 namespace ssphh::realtime {
 namespace {

@@ -1,12 +1,12 @@
 #pragma once
-/// Light of probes as the texels of tiles (octahedral.h): plain data, whoever draws with it.
+/// Light of probes as the texels of tiles (tile_basis.h): plain data, whoever draws with it.
 
 #include <vector>
 
 #include <ssphh/sh/irradiance.h>
 
 #include "gpu_types.h"
-#include "octahedral.h"
+#include "tile_basis.h"
 
 namespace ssphh::realtime {
 

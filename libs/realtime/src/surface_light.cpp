@@ -2,8 +2,9 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include <ssphh/core/octahedral.h>
+
 #include "gpu_types.h"
-#include "octahedral.h"
 
 namespace ssphh::realtime {
 namespace {

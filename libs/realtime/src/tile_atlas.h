@@ -1,5 +1,5 @@
 #pragma once
-/// Tiles of one size (octahedral.h) in a texture array.
+/// Tiles of one size (tile_basis.h) in a texture array.
 
 #include <algorithm>
 #include <span>

@@ -11,9 +11,9 @@
 
 #include "emitter_samples.h"
 #include "mesh_pieces.h"
-#include "octahedral.h"
 #include "random_points.h"
 #include "shadow_maps.h"
+#include "tile_basis.h"
 
 namespace ssphh::realtime {
 namespace {

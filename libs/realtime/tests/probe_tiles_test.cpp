@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <ssphh/core/octahedral.h>
 #include <ssphh/core/sphere.h>
 #include <ssphh/sh/reconstruct.h>
 #include <ssphh/sh/zonal.h>

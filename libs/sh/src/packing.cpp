@@ -8,9 +8,12 @@
 
 #include <ssphh/core/bytes.h>
 #include <ssphh/core/math.h>
+#include <ssphh/sh/bc6h.h>
+#include <ssphh/sh/irradiance.h>
 #include <ssphh/sh/packing.h>
 #include <ssphh/sh/zh3.h>
 
+#include "irradiance_map.h"
 #include "rgb9e5.h"
 
 namespace ssphh::sh {
@@ -117,6 +120,60 @@ RadianceSh unpack_zh3(ByteReader& in) {
   return to_sh(zh3);
 }
 
+/// What irradiance is raised by, in shares of its mean: dark sides of light that is nowhere negative have
+/// more than that, and colours lie closer together.
+constexpr float raised = 0.5f;
+
+const IrradianceMap& map_of(int degree) {
+  static const IrradianceMap coarse(4, 2), fine(8, 4);
+  return degree == 2 ? coarse : fine;
+}
+
+/// The map's place of texel i of a block.
+std::size_t place_of(int side, std::size_t block, std::size_t i) {
+  const auto width = static_cast<std::size_t>(side);
+  return (4 * (block / (width / 4)) + i / 4) * width + 4 * (block % (width / 4)) + i % 4;
+}
+
+void pack_bc6h(const RadianceSh& f, ByteWriter& out) {
+  const IrradianceMap& map = map_of(f.degree());
+  const float unit = static_cast<float>(cosine_band_factor(0) * std::sqrt(1 / (4 * pi_d)));
+  const vec3 mean = unit * glm::max(f[0], vec3(0));
+  std::vector<vec3> texels = map.texels(f);
+  for (vec3& texel : texels) {
+    texel = glm::max(texel + raised * mean, vec3(0));
+    for (int c = 0; c < 3; ++c)
+      if (mean[c] == 0) texel[c] = 0;
+  }
+  const int exponent = half_exponent(texels);
+  out.value(static_cast<std::int8_t>(exponent));
+  for (std::size_t block = 0; block < texels.size() / 16; ++block) {
+    Bc6hColours colours;
+    for (std::size_t i = 0; i < 16; ++i)
+      for (int c = 0; c < 3; ++c)
+        colours[i][c] = std::ldexp(texels[place_of(map.side(), block, i)][c], -exponent);
+    const Bc6hBlock bytes = to_bc6h(colours);
+    out.array(std::span<const std::byte>(bytes));
+  }
+}
+
+RadianceSh unpack_bc6h(ByteReader& in, int degree) {
+  const IrradianceMap& map = map_of(degree);
+  const int exponent = in.value<std::int8_t>("exponent");
+  std::vector<vec3> texels(static_cast<std::size_t>(map.side() * map.side()));
+  for (std::size_t block = 0; block < texels.size() / 16; ++block) {
+    Bc6hBlock bytes;
+    in.raw("BC6H", std::span<std::byte>(bytes));
+    const Bc6hColours colours = from_bc6h(bytes);
+    for (std::size_t i = 0; i < 16; ++i)
+      for (int c = 0; c < 3; ++c)
+        texels[place_of(map.side(), block, i)][c] = std::ldexp(colours[i][c], exponent);
+  }
+  RadianceSh f = map.radiance(texels);
+  f[0] /= 1 + raised;
+  return f;
+}
+
 void require_packs(Packing packing, int degree) {
   if (!packs(packing, degree)) refuse(where, fmt::format("{} has no degree {}", name_of(packing), degree));
 }
@@ -143,6 +200,9 @@ void pack(const RadianceSh& f, Packing packing, std::vector<std::byte>& out) {
     case Packing::zh3:
       pack_zh3(f, packed);
       break;
+    case Packing::bc6h:
+      pack_bc6h(f, packed);
+      break;
   }
   out.insert(out.end(), packed.bytes().begin(), packed.bytes().end());
 }
@@ -161,6 +221,8 @@ RadianceSh unpack(std::span<const std::byte> bytes, Packing packing, int degree)
       return unpack_bytes(in, degree);
     case Packing::zh3:
       return unpack_zh3(in);
+    case Packing::bc6h:
+      return unpack_bc6h(in, degree);
   }
   RadianceSh f(degree);
   std::memcpy(f.values.data(), bytes.data(), bytes.size());

@@ -1,19 +1,21 @@
 import { coefficientCount, shBasis, type Triple } from '../sh.js';
+import { bitsOfBc6h } from './bc6h.js';
+import { radianceFromMap } from './irradiance_map.js';
 import type { Coefficients } from './types.js';
 
 /** How a probe file holds light; docs/compact-probes.md of ssphh has the layouts. */
-export type Packing = 'none' | 'half' | 'rgb9e5' | 'zh3';
+export type Packing = 'none' | 'half' | 'rgb9e5' | 'zh3' | 'bc6h';
 /** In the order of the file's numbers. */
-export const packings: readonly Packing[] = ['none', 'half', 'rgb9e5', 'zh3'];
+export const packings: readonly Packing[] = ['none', 'half', 'rgb9e5', 'zh3', 'bc6h'];
 
 /** Whether it carries functions of that degree. */
 export function packs(packing: Packing, degree: number): boolean {
-  return packing !== 'zh3' || degree === 2;
+  return packing === 'zh3' ? degree === 2 : packing !== 'bc6h' || degree === 2 || degree === 4;
 }
 
 export function packedBytes(packing: Packing, degree: number): number {
   const k = coefficientCount(degree);
-  return { none: 12 * k, half: 1 + 6 * k, rgb9e5: 4 + 3 * (k - 1), zh3: 16 }[packing];
+  return { none: 12 * k, half: 1 + 6 * k, rgb9e5: 4 + 3 * (k - 1), zh3: 16, bc6h: degree <= 2 ? 17 : 65 }[packing];
 }
 
 function fromHalf(bits: number): number {
@@ -56,11 +58,29 @@ function unpackZh3(view: DataView, out: Float32Array): void {
     for (let c = 0; c < 3; ++c) out[3 * k + c] = Math.sqrt((4 * Math.PI) / 5) * basis[k]! * share(view.getInt8(13 + c), out[c]!, 2);
 }
 
+const rowsOfMap = new Map<number, Float64Array[]>();
+
+/** Irradiance, raised by half its mean, as an octahedral map: 4×4 texels in one block, or 8×8 in four. */
+function unpackBc6h(view: DataView, out: Float32Array, degree: number): void {
+  const side = degree === 2 ? 4 : 8, unit = 2 ** view.getInt8(0), blocks = side / 4, texels: number[][] = [];
+  for (let block = 0; block < blocks * blocks; ++block)
+    bitsOfBc6h(new Uint8Array(view.buffer, view.byteOffset + 1 + 16 * block, 16)).forEach((bits, i) => {
+      const row = 4 * Math.floor(block / blocks) + (i >> 2), column = 4 * (block % blocks) + (i & 3);
+      texels[row * side + column] = Array.from(bits, b => unit * fromHalf(b));
+    });
+  const rows = rowsOfMap.get(degree) ?? radianceFromMap(side, degree);
+  rowsOfMap.set(degree, rows);
+  rows.forEach((row, k) => {
+    for (let c = 0; c < 3; ++c) out[3 * k + c] = row.reduce((sum, share, t) => sum + share * texels[t]![c]!, 0) / (k === 0 ? 1.5 : 1);
+  });
+}
+
 /** The function behind `packedBytes` of a file. */
 export function unpack(bytes: Uint8Array, packing: Exclude<Packing, 'none'>, degree: number): Coefficients {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength), out = new Float32Array(3 * coefficientCount(degree));
   if (packing === 'half') unpackHalf(view, out);
   else if (packing === 'rgb9e5') unpackShares(view, out, coefficientCount(degree) - 1);
-  else unpackZh3(view, out);
+  else if (packing === 'zh3') unpackZh3(view, out);
+  else unpackBc6h(view, out, degree);
   return out;
 }

@@ -1,29 +1,11 @@
-#include "octahedral.h"
+#include "tile_basis.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include <ssphh/core/octahedral.h>
 #include <ssphh/sh/evaluate.h>
 
 namespace ssphh::realtime {
-
-vec3 octahedral_direction(vec2 p) {
-  // Across an edge the map goes on mirrored at the edge's middle
-  if (std::abs(p.x) > 1) p = {std::copysign(2 - std::abs(p.x), p.x), -p.y};
-  if (std::abs(p.y) > 1) p = {-p.x, std::copysign(2 - std::abs(p.y), p.y)};
-  vec3 n(p, 1 - std::abs(p.x) - std::abs(p.y));
-  if (n.z < 0) {
-    n.x = (1 - std::abs(p.y)) * std::copysign(1.0f, p.x);
-    n.y = (1 - std::abs(p.x)) * std::copysign(1.0f, p.y);
-  }
-  return glm::normalize(n);
-}
-
-vec2 octahedral_place(const vec3& d) {
-  const vec3 p = d / (std::abs(d.x) + std::abs(d.y) + std::abs(d.z));
-  if (p.z >= 0) return {p.x, p.y};
-  return {(1 - std::abs(p.y)) * std::copysign(1.0f, p.x), (1 - std::abs(p.x)) * std::copysign(1.0f, p.y)};
-}
 
 TileBasis::TileBasis(int size, int degree) : size_(size), degree_(degree) {
   const auto count = static_cast<std::size_t>(sh::coefficient_count(degree));

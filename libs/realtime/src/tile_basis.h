@@ -1,6 +1,5 @@
 #pragma once
-/// Functions on the sphere as square tiles: the octahedral map of Cigolle et al., A Survey of Efficient
-/// Representations for Independent Unit Vectors, JCGT 2014, with a border of one texel, so that bilinear
+/// Functions on the sphere as square tiles: the octahedral map with a border of one texel, so that bilinear
 /// filters find their neighbours within the tile.
 
 #include <span>
@@ -9,11 +8,6 @@
 #include <ssphh/core/math.h>
 
 namespace ssphh::realtime {
-
-/// Unit direction of a place in [−1, 1]²; places a little outside are those across the edge.
-vec3 octahedral_direction(vec2 place);
-/// Place of a unit direction in [−1, 1]².
-vec2 octahedral_place(const vec3& direction);
 
 /// Values of spherical harmonics at a tile's texels: what turns coefficients into a tile.
 class TileBasis {

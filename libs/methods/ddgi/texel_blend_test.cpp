@@ -1,6 +1,6 @@
-// The octahedral map: there and back, without a seam, and nearly even.
+// Blending of octahedral maps: without a seam, of second order.
 
-#include "octahedral.h"
+#include "texel_blend.h"
 
 #include <gtest/gtest.h>
 
@@ -9,17 +9,6 @@
 
 namespace ssphh::methods::ddgi {
 namespace {
-
-TEST(Octahedral, ThereAndBack) {
-  Pcg32 random(1);
-  for (int i = 0; i < 1000; ++i) {
-    const vec3 d = sample_uniform_sphere(random.uniform2());
-    EXPECT_LT(glm::distance(from_octahedral(octahedral(d)), d), 1e-6f);
-  }
-  EXPECT_EQ(octahedral({0, 0, 1}), vec2(0.5f));
-  EXPECT_EQ(octahedral({1, 0, 0}), vec2(1, 0.5f));
-  EXPECT_EQ(octahedral({0, -1, 0}), vec2(0.5f, 0));
-}
 
 /// Blended texel values of a function of direction.
 template <class F>
@@ -30,7 +19,7 @@ float blend(const F& f, const vec3& direction, int n) {
   return sum;
 }
 
-TEST(Octahedral, BlendingHasNoSeam) {
+TEST(TexelBlend, BlendingHasNoSeam) {
   // Where the lower half is cut open, both sides of the cut give one value.
   const auto f = [](const vec3& d) { return d.x + 2 * d.y * d.z; };
   Pcg32 random(2);
@@ -43,7 +32,7 @@ TEST(Octahedral, BlendingHasNoSeam) {
   }
 }
 
-TEST(Octahedral, BlendingTendsToTheFunction) {
+TEST(TexelBlend, BlendingTendsToTheFunction) {
   const auto f = [](const vec3& d) { return 1 + d.x - 0.5f * d.y + d.x * d.z; };
   double error[2] = {};
   for (int k = 0; k < 2; ++k) {
@@ -58,7 +47,7 @@ TEST(Octahedral, BlendingTendsToTheFunction) {
   EXPECT_LT(error[1], error[0] / 3);
 }
 
-TEST(Octahedral, NeighboursAcrossEdgesAreNear) {
+TEST(TexelBlend, NeighboursAcrossEdgesAreNear) {
   for (const int n : {8, 16}) {
     for (int i = 0; i < 4 * n; ++i) {
       // Directions just outside of each texel's centre toward the map's edge.
@@ -67,7 +56,7 @@ TEST(Octahedral, NeighboursAcrossEdgesAreNear) {
                          : i < 2 * n ? vec2(at, 1 - e)
                          : i < 3 * n ? vec2(e, at)
                                      : vec2(1 - e, at);
-      const vec3 d = from_octahedral(place);
+      const vec3 d = octahedral_direction(2.0f * place - 1.0f);
       const TexelBlend b = blend_texels(d, n);
       for (std::size_t k = 0; k < 4; ++k) {
         ASSERT_GE(b.texel[k], 0);

@@ -1,0 +1,97 @@
+// Blocks of BC6H: what they must hold exactly, and how near they come to what lies on a line or two. That the bits mean what
+// they mean to GPUs: libs/realtime/tests/bc6h_test.cpp.
+
+#include <ssphh/sh/bc6h.h>
+
+#include <gtest/gtest.h>
+
+#include <ssphh/core/math.h>
+#include <ssphh/core/random.h>
+
+namespace ssphh::sh {
+namespace {
+
+Bc6hColours through(const Bc6hColours& colours) {
+  return from_bc6h(to_bc6h(colours));
+}
+
+float worst(const Bc6hColours& a, const Bc6hColours& b) {
+  float most = 0;
+  for (std::size_t i = 0; i < 16; ++i) most = std::max(most, max_component(glm::abs(a[i] - b[i])));
+  return most;
+}
+
+TEST(Bc6h, OneColourIsKept) {
+  // Half floats of 12 bits and more of 16, and what rounds to them.
+  for (const vec3 colour : {vec3(0), vec3(1), vec3(0.25f, 17, 3000), vec3(65504), vec3(1e-5f, 1, 2)}) {
+    Bc6hColours all;
+    all.fill(colour);
+    const Bc6hColours back = through(all);
+    for (const vec3& c : back) EXPECT_EQ(c, back[0]);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(back[0][c], colour[c], 0x1p-9f * colour[c] + 2e-7f);
+  }
+}
+
+TEST(Bc6h, WhatDoesNotFitIsCut) {
+  Bc6hColours colours;
+  for (std::size_t i = 0; i < 16; ++i) colours[i] = i < 8 ? vec3(-1, 2, 1e9f) : vec3(-5, 2, 1e30f);
+  for (const vec3& c : through(colours)) {
+    EXPECT_EQ(c.x, 0);
+    EXPECT_NEAR(c.y, 2, 0.01f);
+    EXPECT_GT(c.z, 65000);
+    EXPECT_LE(c.z, bc6h_most);
+  }
+}
+
+TEST(Bc6h, ALineOfColoursIsFollowedInSixteenSteps) {
+  Pcg32 random(3);
+  for (int round = 0; round < 200; ++round) {
+    const vec3 a = 1.0f + random.uniform3(), b = 1.0f + random.uniform3();
+    Bc6hColours colours;
+    for (vec3& c : colours) c = glm::mix(a, b, random.uniform());
+    // Half a step, and half as much for ends on a grid of 1/16 (10 bits, in [1, 2)).
+    EXPECT_LT(worst(through(colours), colours), glm::distance(a, b) / 15 + 1.0f / 32) << round;
+  }
+}
+
+TEST(Bc6h, TwoSidesOfOtherColoursAreFollowedByTwoLines) {
+  // Red light from the left, green light from the right, as in cornell: one line would make both brown.
+  Pcg32 random(4);
+  for (int round = 0; round < 100; ++round) {
+    Bc6hColours colours;
+    for (std::size_t i = 0; i < 16; ++i) {
+      const float t = 1 + random.uniform();
+      const bool second = round % 2 == 0 ? i % 4 >= 2 : i >= 8;
+      colours[i] = second ? vec3(1, 1 + t, 1) : vec3(1 + t, 1, 1);
+    }
+    EXPECT_LT(worst(through(colours), colours), 0.25f) << round;
+  }
+}
+
+TEST(Bc6h, MoreTriesAreNoWorse) {
+  // A block that BC6H holds exactly is found again, or one that is nearly as near.
+  Pcg32 random(5);
+  double sum = 0;
+  for (int round = 0; round < 300; ++round) {
+    Bc6hBlock block;
+    for (std::byte& b : block) b = static_cast<std::byte>(random.next());
+    block[0] = (block[0] & std::byte(0xe0)) | std::byte(0x03);  // one line, ends of ten bits
+    const Bc6hColours colours = from_bc6h(block);
+    float most = 0;
+    for (const vec3& c : colours) most = std::max(most, max_component(c));
+    sum += static_cast<double>(worst(through(colours), colours) / most) / 300;
+  }
+  EXPECT_LT(sum, 0.03);
+}
+
+TEST(Bc6h, ReservedModesAreBlack) {
+  for (const int number : {0x13, 0x17, 0x1b, 0x1f}) {
+    Bc6hBlock block;
+    block.fill(std::byte(0xff));
+    block[0] = static_cast<std::byte>(0xe0 | number);
+    EXPECT_EQ(from_bc6h(block), Bc6hColours{}) << number;
+  }
+}
+
+}  // namespace
+}  // namespace ssphh::sh
