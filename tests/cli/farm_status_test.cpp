@@ -12,6 +12,7 @@
 #include <ssphh/majordomo/envelope.h>
 #include <ssphh/majordomo/mdp.h>
 
+#include "commands/farm.h"
 #include "here.h"
 
 namespace ssphh {
@@ -136,6 +137,26 @@ TEST(FarmTop, RatesAreNotNegativeAndNothingIsLeftOfNoWork) {
       text_here({"farm", "top", "--broker", broker.endpoint(), "--count", "2", "--interval", "0.1"});
   EXPECT_NE(text.find(head + "\n0.00 jobs/s\nservice"), std::string::npos)
       << "the broker began anew: " << text;
+}
+
+TEST(FarmTop, CtrlCEndsWhatHasNoOtherEnd) {
+  const ToldBroker broker(Answers{{"mmi.stats", {stats(13)}}, {"mmi.workers", {workers}}});
+  for (const int count : {0, 9}) {
+    CancelToken cancel;
+    int looks = 0;
+    const auto stop_at_two = [&](const app::FarmStatus&) {
+      if (++looks == 2) cancel.request();
+    };
+    const auto top = [&] {
+      app::run_farm_top({{broker.endpoint(), "", ""}, 0.05, count}, stop_at_two, {nullptr, &cancel});
+    };
+    if (count == 0) {
+      EXPECT_NO_THROW(top());
+    } else {
+      EXPECT_THROW(top(), Cancelled);
+    }
+    EXPECT_EQ(looks, 2);
+  }
 }
 
 TEST(FarmParked, ShowsSizesAndAges) {

@@ -59,12 +59,16 @@ std::string to_text(const FarmStatus& s, const BrokerChoice&) {
 void run_farm_top(const FarmTopOptions& o, const std::function<void(const FarmStatus&)>& show,
                   const Control& control) {
   farm::StatusWatch watch(broker_address(o.broker));
-  for (int i = 0; o.count == 0 || i < o.count; ++i) {
-    show(watch.look(control));
-    for (double waited = 0; waited < o.interval && (o.count == 0 || i + 1 < o.count); waited += 0.05) {
-      control.check();
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  try {
+    for (int i = 0; o.count == 0 || i < o.count; ++i) {
+      show(watch.look(control));
+      for (double waited = 0; waited < o.interval && (o.count == 0 || i + 1 < o.count); waited += 0.05) {
+        control.check();
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      }
     }
+  } catch (const Cancelled&) {
+    if (o.count != 0) throw;  // without end, it is how to end it
   }
 }
 
