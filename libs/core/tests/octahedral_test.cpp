@@ -1,9 +1,8 @@
 // The octahedral map: there and back, and across its edges.
 
-#include <ssphh/core/octahedral.h>
-
 #include <gtest/gtest.h>
 
+#include <ssphh/core/octahedral.h>
 #include <ssphh/core/random.h>
 #include <ssphh/core/sphere.h>
 
@@ -25,8 +24,12 @@ TEST(Octahedral, PlacesOutsideAreThoseAcrossTheEdge) {
   for (const float along : {-0.9f, -0.3f, 0.2f, 0.7f}) {
     for (const float side : {-1.0f, 1.0f}) {
       const float outside = 1e-3f * side;
-      EXPECT_LT(glm::distance(octahedral_direction({side + outside, along}), octahedral_direction({side - outside, -along})), 1e-6f);
-      EXPECT_LT(glm::distance(octahedral_direction({along, side + outside}), octahedral_direction({-along, side - outside})), 1e-6f);
+      EXPECT_LT(glm::distance(octahedral_direction({side + outside, along}),
+                              octahedral_direction({side - outside, -along})),
+                1e-6f);
+      EXPECT_LT(glm::distance(octahedral_direction({along, side + outside}),
+                              octahedral_direction({-along, side - outside})),
+                1e-6f);
     }
   }
 }

@@ -1,5 +1,3 @@
-#include <ssphh/sh/bc6h.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -9,6 +7,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include <ssphh/core/math.h>
+#include <ssphh/sh/bc6h.h>
 
 #include "bc6h_modes.h"
 
@@ -70,7 +69,8 @@ class BlockBits {
   explicit BlockBits(Bc6hBlock& block) : block_(block) {}
   int get(int count) {
     int value = 0;
-    for (int i = 0; i < count; ++i, ++at_) value |= static_cast<int>(block_[at_ / 8] >> (at_ % 8) & std::byte(1)) << i;
+    for (int i = 0; i < count; ++i, ++at_)
+      value |= static_cast<int>(block_[at_ / 8] >> (at_ % 8) & std::byte(1)) << i;
     return value;
   }
   void put(int value, int count) {
@@ -89,7 +89,8 @@ struct Line {
   vec3 ends[2];
 };
 
-/// Its covariance's largest eigenvector, and how far off the line through it the colours lie, as sum of squares.
+/// Its covariance's largest eigenvector, and how far off the line through it the colours lie, as sum of
+/// squares.
 struct Axis {
   vec3 middle{0}, direction{0};
   float off = 0;
@@ -99,7 +100,8 @@ Axis axis_of(std::span<const vec3> colours) {
   Axis axis;
   for (const vec3& colour : colours) axis.middle += colour / static_cast<float>(colours.size());
   mat3 covariance(0);
-  for (const vec3& colour : colours) covariance += glm::outerProduct(colour - axis.middle, colour - axis.middle);
+  for (const vec3& colour : colours)
+    covariance += glm::outerProduct(colour - axis.middle, colour - axis.middle);
   const float all = covariance[0][0] + covariance[1][1] + covariance[2][2];
   if (all == 0) return axis;
   int largest = 0;
@@ -172,7 +174,8 @@ Encoded with_indices(const Mode& mode, int shape, const Ends& ends, const Bc6hCo
     float least = std::numeric_limits<float>::max();
     for (std::size_t k = 0; k < count; ++k) {
       const vec3 off = palette[region_of(mode, shape, i)][k] - colours[i];
-      if (const float square = glm::dot(off, off); square < least) least = square, found.index[i] = static_cast<int>(k);
+      if (const float square = glm::dot(off, off); square < least)
+        least = square, found.index[i] = static_cast<int>(k);
     }
     found.error += least;
   }
@@ -194,7 +197,9 @@ struct Region {
 
 /// The anchor is nearer to the first end.
 Line begun_at_anchor(const Line& line, const vec3& anchor) {
-  return glm::distance(anchor, line.ends[0]) <= glm::distance(anchor, line.ends[1]) ? line : Line{{line.ends[1], line.ends[0]}};
+  return glm::distance(anchor, line.ends[0]) <= glm::distance(anchor, line.ends[1])
+             ? line
+             : Line{{line.ends[1], line.ends[0]}};
 }
 
 constexpr int rounds = 3;
@@ -261,7 +266,8 @@ Bc6hBlock to_bc6h(const Bc6hColours& colours) {
     out.put(value >> bit.place & 1, 1);
   }
   if (mode.regions == 2) out.put(best.shape, 5);
-  for (int i = 0; i < 16; ++i) out.put(best.index[i], mode.index_bits() - (is_anchor(mode, best.shape, i) ? 1 : 0));
+  for (int i = 0; i < 16; ++i)
+    out.put(best.index[i], mode.index_bits() - (is_anchor(mode, best.shape, i) ? 1 : 0));
   return block;
 }
 

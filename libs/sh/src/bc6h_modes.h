@@ -17,10 +17,11 @@ struct Bit {
 
 struct Mode {
   std::uint32_t number;
-  int number_bits;   ///< bits of the block that say its mode
-  int regions;       ///< 1 or 2: lines of colours
-  int end_bits;      ///< of a channel of an end
-  glm::ivec3 delta;  ///< bits of the differences to end 0 that stand for the other ends; 0: they stand themselves
+  int number_bits;  ///< bits of the block that say its mode
+  int regions;      ///< 1 or 2: lines of colours
+  int end_bits;     ///< of a channel of an end
+  glm::ivec3
+      delta;  ///< bits of the differences to end 0 that stand for the other ends; 0: they stand themselves
   std::vector<Bit> bits;  ///< in the block's order, behind the mode's number
 
   int ends() const { return 2 * regions; }

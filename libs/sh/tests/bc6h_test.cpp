@@ -1,12 +1,11 @@
-// Blocks of BC6H: what they must hold exactly, and how near they come to what lies on a line or two. That the bits mean what
-// they mean to GPUs: libs/realtime/tests/bc6h_test.cpp.
-
-#include <ssphh/sh/bc6h.h>
+// Blocks of BC6H: what they must hold exactly, and how near they come to what lies on a line or two. That the
+// bits mean what they mean to GPUs: libs/realtime/tests/bc6h_test.cpp.
 
 #include <gtest/gtest.h>
 
 #include <ssphh/core/math.h>
 #include <ssphh/core/random.h>
+#include <ssphh/sh/bc6h.h>
 
 namespace ssphh::sh {
 namespace {

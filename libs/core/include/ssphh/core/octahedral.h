@@ -16,8 +16,8 @@ inline vec2 octahedral_place(const vec3& direction) {
   return {(1 - std::abs(p.y)) * std::copysign(1.0f, p.x), (1 - std::abs(p.x)) * std::copysign(1.0f, p.y)};
 }
 
-/// Unit direction of a place in [−1, 1]²; places a little outside are those across the edge, where the map goes
-/// on mirrored at the edge's middle.
+/// Unit direction of a place in [−1, 1]²; places a little outside are those across the edge, where the map
+/// goes on mirrored at the edge's middle.
 inline vec3 octahedral_direction(vec2 p) {
   if (std::abs(p.x) > 1) p = {std::copysign(2 - std::abs(p.x), p.x), -p.y};
   if (std::abs(p.y) > 1) p = {-p.x, std::copysign(2 - std::abs(p.y), p.y)};
@@ -32,7 +32,8 @@ inline vec3 octahedral_direction(vec2 p) {
 /// Unit direction of the centre of texel i of an n×n map, row by row.
 inline vec3 octahedral_texel(int i, int n) {
   const auto size = static_cast<float>(n);
-  return octahedral_direction({(2 * static_cast<float>(i % n) + 1) / size - 1, (2 * static_cast<float>(i / n) + 1) / size - 1});
+  return octahedral_direction(
+      {(2 * static_cast<float>(i % n) + 1) / size - 1, (2 * static_cast<float>(i / n) + 1) / size - 1});
 }
 
 }  // namespace ssphh
