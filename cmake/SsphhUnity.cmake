@@ -5,7 +5,7 @@
 #
 # UNITY_BUILD of CMake writes absolute paths, so that a clone elsewhere would find nothing in the compiler's cache.
 set(SSPHH_UNITY OFF CACHE STRING "ON: compile the files of a target in batches, quicker from nothing, slower after a change; TESTS: those of test programs alone")
-set(SSPHH_UNITY_FILES 32 CACHE STRING "Files in a batch, about, of tests a quarter of that; a large number compiles each target as one")
+set(SSPHH_UNITY_FILES 32 CACHE STRING "Files in a batch, about, of tests half of that; a large number compiles each target as one")
 
 function(ssphh_unity target)
   if(NOT SSPHH_UNITY OR (SSPHH_UNITY STREQUAL "TESTS" AND NOT target MATCHES "^test_"))
@@ -31,7 +31,7 @@ function(ssphh_unity target)
   list(LENGTH together count)
   set(most ${SSPHH_UNITY_FILES})
   if(target MATCHES "^test_")
-    math(EXPR most "(${most} + 3) / 4")
+    math(EXPR most "(${most} + 1) / 2")
   endif()
   math(EXPR batches "(${count} + ${most} - 1) / ${most}")
   foreach(name IN LISTS together)

@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <ssphh/rays/posed_world.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
 #include <ssphh/transport/fitted_weights.h>
 #include <ssphh/transport/recorded_light.h>
 #include <ssphh/transport/session_sets.h>
+#include <ssphh/transport/surface_gather.h>
 
 #include "transport_fixtures.h"
 

@@ -35,7 +35,7 @@ probes::ProbeSet lit_row() {
   return set;
 }
 
-BakeParams small_bake() {
+BakeParams row_bake() {
   BakeParams params;
   params.face_size = 4;
   params.path.spp = 4;
@@ -68,7 +68,7 @@ test::FakeSource::Field brighter_beyond(float more) {
 
 probes::ProbeSet baked(const test::FakeSource& source) {
   BakeReport report;
-  probes::ProbeSet set = bake(source, row(), small_bake(), {}, report);
+  probes::ProbeSet set = bake(source, row(), row_bake(), {}, report);
   set.baseline.emplace().trials = make_trials(source, set);
   return set;
 }
@@ -176,7 +176,7 @@ TEST(Update, BakesOnlyWhatItIsTold) {
   const probes::ProbeSet old = baked(source);
   source.reflected = {brighter_beyond(0.25f)};
   const probes::ProbeSet full = baked(source);
-  BakeParams params = small_bake();
+  BakeParams params = row_bake();
   params.only = {{1, 3}};
   BakeReport report;
   const probes::ProbeSet part = bake(source, old, params, {}, report);
@@ -210,7 +210,7 @@ TEST(Update, AScopeNamesTheGroupsWhoseLightIsComparedAndBaked) {
   source.reflected = {brighter_beyond(0.25f), brighter_beyond(1)};
   const UpdatePlan plan = plan_update(source, old, {}, {.probes = {}, .groups = {{0}}});
   EXPECT_THAT(plan.probes, ElementsAre(3, 4));
-  BakeParams params = small_bake();
+  BakeParams params = row_bake();
   params.only = plan.probes;
   params.only_groups = {{0}};
   BakeReport report;

@@ -27,7 +27,7 @@ Scene sun_and_sky() {
   return scene;
 }
 
-std::string overlay_error(const std::string& text) {
+std::string mode_overlay_error(const std::string& text) {
   Scene scene = sun_and_sky();
   try {
     apply_overlay(scene, text, "side.json", "");
@@ -47,12 +47,12 @@ TEST(LightModesOfFiles, AnOverlaySaysThemOfItsOwnLightsToo) {
 }
 
 TEST(LightModesOfFiles, ErrorsNamePlaceAndNames) {
-  EXPECT_EQ(overlay_error(R"({"light_modes": {"sky": "bakd"}})"),
+  EXPECT_EQ(mode_overlay_error(R"({"light_modes": {"sky": "bakd"}})"),
             "side.json: light_modes.sky: \"bakd\" is none of: realtime, mixed, baked, diffuse");
-  EXPECT_EQ(overlay_error(R"({"light_modes": {"moon": "baked"}})"),
+  EXPECT_EQ(mode_overlay_error(R"({"light_modes": {"moon": "baked"}})"),
             "side.json: light_modes.moon: the scene has no light group of that name (its groups: sun, sky)");
-  EXPECT_NE(overlay_error(R"({"light_modes": ["sky"]})"), "none");
-  EXPECT_NE(overlay_error(R"({"light_modes": {"sky": true}})"), "none");
+  EXPECT_NE(mode_overlay_error(R"({"light_modes": ["sky"]})"), "none");
+  EXPECT_NE(mode_overlay_error(R"({"light_modes": {"sky": true}})"), "none");
 }
 
 TEST(LightModesOfFiles, SurviveGltf) {
