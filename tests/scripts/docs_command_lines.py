@@ -4,8 +4,8 @@ import re
 import subprocess
 
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```", re.S | re.M)
-# In a block: at the line's begin, perhaps behind a prompt, variables and a folder.
-IN_BLOCK = re.compile(r"^\s*(?:\$ )?(?:\w+=\S+ )*(?:\S*/)?ssphh ((?:[a-z]|--).*)")
+# In a block: at the line's begin, perhaps behind a prompt (`alice$`), variables and a folder.
+IN_BLOCK = re.compile(r"^\s*(?:\w*\$ +)?(?:\w+=\S+ )*(?:\S*/)?ssphh ((?:[a-z]|--).*)")
 # In running text: `ssphh ...`, in one line.
 IN_TEXT = re.compile(r"(?<!`)`(?:\S*/)?ssphh ([a-z][^`\n]*)`")
 OPTION = re.compile(r"--[a-z][a-z0-9-]*|-[a-z]")

@@ -7,18 +7,21 @@ import subprocess
 
 from docs_command_lines import is_concrete
 
-# Commands that a test cannot run as they stand, and why; each has tests of its own.
-NOT_HERE = [
+# Commands that tests do not run, and why; each has tests of its own, and scripts/docs-commands runs them.
+NOT_IN_TESTS = [
     (r"cycles", "needs Blender"),
     (r"^(view|turntable|bench-frame)|--backend gl", "needs OpenGL"),
-    (r"^(broker|worker|farm)|--broker", "needs a farm that stays"),
+    (r"^(broker|worker|farm (?!keygen))|--broker", "needs a farm that stays"),
     (r"--watch", "goes on until Ctrl-C"),
     (r"^report", "takes minutes"),
     (r"^web", "needs the page, which npm builds"),
-    (r"sponza|hotel-room", "needs a large scene"),
-    (r"face\?", "needs pictures of another renderer"),
-    (r"gl\.exr", "needs OpenGL's picture"),
+    (r"sponza|hotel-room|gl\.exr", "needs a large scene"),
     (r"--max-probes 20000|many\.sphl|^respond|--frames 60 --truth|ssphh-paper|^measure .*(ssphh|ddgi)", "takes many seconds"),
+]
+# What nothing runs.
+NOT_AT_ALL = [
+    (r"face\?", "needs pictures of another renderer"),
+    (r"^farm release", "needs a job that was set aside"),
 ]
 
 # In place of what a line says, or behind it.
@@ -40,9 +43,9 @@ ONLY_PATHS = {"--face", "--spp"}
 FOR_PLACEHOLDERS = {"SCENE": "room.glb", "OUT": "out", "OUT.glb": "out.glb", "FILE.sphl": "day.sphl", "P.sphl": "day.sphl"}
 
 
-def why_not(line):
-    """Why a line is not run, or None."""
-    for pattern, reason in NOT_HERE:
+def why_not(line, everywhere=False):
+    """Why tests do not run a line, or with `everywhere` why nothing does; or None."""
+    for pattern, reason in NOT_AT_ALL if everywhere else NOT_AT_ALL + NOT_IN_TESTS:
         if re.search(pattern, line):
             return reason
     return None if all(map(is_concrete, typed(line))) else "has placeholders"
@@ -86,6 +89,8 @@ class Runs:
 
     def make_files(self):
         self.call(self.given, "export builtin:cornell --to gltf -o glb")
+        for name in ("examples", "plans"):
+            (self.given / name).symlink_to(self.root / name)
         for name in ("my", "room", "house", "hall"):
             (self.given / f"{name}.glb").hardlink_to(self.given / "glb/scene.glb")
         for name in ("room", "evening", "fire"):
@@ -107,13 +112,17 @@ class Runs:
 
     def run(self, page, line):
         """The worst exit code, and what was told on stderr then."""
+        folder = self.folder_of(page)
+        told = [self.call(folder, one) for one in typed(line)]
+        return max(told)
+
+    def folder_of(self, page):
         folder = self.folder / page.replace("/", "-")
         if not folder.exists():
             folder.mkdir()
             for file in self.given.iterdir():
-                if file.is_file():
+                if file.is_symlink():
+                    (folder / file.name).symlink_to(file.resolve())
+                elif file.is_file():
                     (folder / file.name).hardlink_to(file)
-            for name in ("examples", "plans"):
-                (folder / name).symlink_to(self.root / name)
-        told = [self.call(folder, one) for one in typed(line)]
-        return max(told)
+        return folder
