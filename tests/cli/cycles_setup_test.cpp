@@ -76,6 +76,23 @@ TEST(Cycles, BlenderGetsThePythonBesideItWhateverComesFirstOnPath) {
     EXPECT_NEAR(truth["standard_error"][c].number(), (c == 1 ? 2 : 1) / std::sqrt(8.0), 1e-12);
 }
 
+// Blender takes relative paths from $PWD, which is another folder where a script changed its own without
+// telling.
+TEST(Cycles, BlenderGetsWholePaths) {
+  const TempDir dir;
+  install_blender(dir / "bin");
+  for (const char* seed : {"bin/seed0.exr", "bin/seed1.exr"})
+    image::write_image(dir / seed, plain_picture({1, 2, 3}));
+  const Path path((dir / "bin").string() + ":/usr/bin:/bin");
+  const std::filesystem::path out = std::filesystem::relative(dir / "truth.exr");
+  ASSERT_TRUE(out.is_relative());
+  test::run_json({"truth", "builtin:box", "--renderer", "cycles", "--width", "4", "--height", "2", "--spp",
+                  "2", "--projection", "equirect", "-o", out});
+  const std::string calls = read_text_file(dir / "bin/calls");
+  EXPECT_THAT(calls, HasSubstr("--python /"));
+  EXPECT_THAT(calls, HasSubstr("--output /"));
+}
+
 TEST(Cycles, WithoutBlenderSaysWhereItLookedAndWhatToInstall) {
   const TempDir dir;
   write_file(dir / "blender", "no program");  // not executable

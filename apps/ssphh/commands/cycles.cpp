@@ -55,6 +55,7 @@ CyclesSource::CyclesSource(const scene::Scene& scene, float time, const rays::Ra
                            const CyclesOptions& options)
     : scene_(scene), time_(time), ours_(ours), options_(options) {
   require_blender();
+  options_.work = std::filesystem::absolute(options_.work);  // Blender takes what is relative from $PWD
   std::filesystem::create_directories(options_.work);
   std::filesystem::remove(options_.work / "blender.log");
 }

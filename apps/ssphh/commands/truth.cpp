@@ -54,7 +54,10 @@ Halves render_path(const TruthOptions& o, const scene::Scene& scene,
 
 Halves render_cycles(const TruthOptions& o, const scene::Scene& scene, const Control& control) {
   require_blender();
-  const std::filesystem::path work = o.work.empty() ? o.output + ".cycles" : o.work;
+  // Blender takes what is relative from $PWD, where a script that started us elsewhere may have left another
+  // folder.
+  const std::filesystem::path work =
+      std::filesystem::absolute(o.work.empty() ? o.output + ".cycles" : o.work);
   const scene_io::ExportReport report =
       scene_io::export_cycles(scene, export_settings(o.picture, scene), work);
   const std::filesystem::path log = work / "blender.log";
