@@ -49,9 +49,16 @@ vec3 of_half_bits(const ivec3& bits) {
   return colour;
 }
 
+vec3 cut(const vec3& colour) {
+  vec3 held(0);
+  for (int c = 0; c < 3; ++c)
+    if (colour[c] > 0) held[c] = std::min(colour[c], bc6h_most);
+  return held;
+}
+
 vec3 to_half_bits(const vec3& colour) {
   vec3 bits;
-  for (int c = 0; c < 3; ++c) bits[c] = glm::packHalf1x16(std::clamp(colour[c], 0.0f, bc6h_most));
+  for (int c = 0; c < 3; ++c) bits[c] = glm::packHalf1x16(colour[c]);
   return bits;
 }
 
@@ -248,8 +255,9 @@ std::array<int, shapes_tried> promising_shapes(const Bc6hColours& bits) {
 
 }  // namespace
 
-Bc6hBlock to_bc6h(const Bc6hColours& colours) {
-  Bc6hColours bits;
+Bc6hBlock to_bc6h(const Bc6hColours& any) {
+  Bc6hColours colours, bits;
+  std::ranges::transform(any, colours.begin(), cut);
   std::ranges::transform(colours, bits.begin(), to_half_bits);
   Encoded best = best_of(1, 0, colours, bits);
   if (best.error > 0)

@@ -1,6 +1,9 @@
 // Blocks of BC6H: what they must hold exactly, and how near they come to what lies on a line or two. That the
 // bits mean what they mean to GPUs: libs/realtime/tests/bc6h_test.cpp.
 
+#include <cmath>
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include <ssphh/core/math.h>
@@ -40,6 +43,15 @@ TEST(Bc6h, WhatDoesNotFitIsCut) {
     EXPECT_GT(c.z, 65000);
     EXPECT_LE(c.z, bc6h_most);
   }
+}
+
+TEST(Bc6h, WhatDoesNotFitSpoilsNoOther) {
+  Bc6hColours colours;
+  for (std::size_t i = 0; i < 16; ++i) colours[i] = vec3(i % 4 < 2 ? 100 : 60000);
+  Bc6hColours cut = colours;
+  colours[3] = {1e30f, std::numeric_limits<float>::infinity(), 60000}, cut[3] = {bc6h_most, bc6h_most, 60000};
+  colours[4] = {NAN, -1e30f, 100}, cut[4] = {0, 0, 100};
+  EXPECT_EQ(to_bc6h(colours), to_bc6h(cut));
 }
 
 TEST(Bc6h, ALineOfColoursIsFollowedInSixteenSteps) {

@@ -16,7 +16,7 @@ using Bc6hBlock = std::array<std::byte, 16>;
 inline constexpr float bc6h_most = 65504;
 
 /// The block, of all modes and shapes of two regions, whose colours are near: the least sum of squares of
-/// those that were tried. Channels are cut to 0..bc6h_most.
+/// those that were tried. Channels are cut to 0..bc6h_most; NaN is 0.
 Bc6hBlock to_bc6h(const Bc6hColours& colours);
 
 /// As GPUs read it, to the bit; blocks of reserved modes are black.
