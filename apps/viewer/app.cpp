@@ -34,6 +34,7 @@ App::App(Window& window_, const ViewerOptions& options_, LoadScene load, ShowEls
   }
   take_look();
   kept_look_ = look();
+  if (by_hand()) light.budget_ms = 30;
   if (options.farm) farm.emplace(*options.farm, options.own_farm);
   for (const auto& [name, value] : options.settings) set_setting(settings, name, value);
   take_quality();
@@ -66,7 +67,7 @@ double App::turn(const InjectedInput& input) {
   // How far it is
   if (job.running() && now - last_frame_ > 0.2) redraw();
   const bool moving = settings.play || path_plays || frames || applied_.light_stale || drawing() ||
-                      std::ranges::any_of(others, &Pane::drawing);
+                      light.under_way() || std::ranges::any_of(others, &Pane::drawing);
   if (redraw_ == 0 && !moving) return busy ? 0.1 : 0.5;
   redraw_ = std::max(redraw_ - 1, 0);
 
@@ -217,9 +218,8 @@ void App::apply_lamps() {
   screen.scene_dirty = true;
 }
 
-/// What a slider changes that is still held is seen at once; light that takes long follows when it is let go.
+/// Nobody waits for light that takes long to follow: the window goes on meanwhile.
 void App::update_light() {
-  if (holds_slider() && light.follows_slowly(document)) return;
   const ProbeLight::Update update = light.update(document, settings, *renderer_);
   if (!update.relit && !update.replaced) return;
   screen.scene_dirty = screen.balls_dirty = true;
@@ -236,7 +236,8 @@ bool App::settled() const {
 
 bool App::current() const {
   if (!scene_open()) return job.idle();
-  if (!job.idle() || !elsewhere.idle() || screen.to_send || screen.linear_file || applied_.light_stale)
+  if (!job.idle() || !elsewhere.idle() || screen.to_send || screen.linear_file || applied_.light_stale ||
+      light.under_way())
     return false;
   const auto current = [this](const Pane& pane) { return pane.shows(settings); };
   if (!current(*this) || !std::ranges::all_of(others, current)) return false;

@@ -88,7 +88,7 @@ void App::save_probes(const std::string& file) {
                               : "“Light them live” in the panel Probes finds the whole of it");
   if (light.live()) {
     const scene::Scene scene = document.edited();
-    probes::ProbeSet set = light.live_light()->bake(scene);
+    probes::ProbeSet set = light.bake(scene);
     for (std::size_t i = 0; i < set.probes.size(); ++i) {
       // Edges are of another degree where VIZ ran with one of its own.
       const std::vector<probes::Edge>& edges = light.set().probes[i].edges;

@@ -31,7 +31,7 @@ bool App::holds_slider() const {
 void App::resize_picture() {
   constexpr float large = 2e5f;  // pixels
   const bool slides = holds_slider() && (screen.coarse || renderer_->lighting() != document.lighting());
-  const bool moving = drag.changes_picture() || settings.play || path_plays || slides;
+  const bool moving = drag.changes_picture() || settings.play || path_plays || slides || light.under_way();
   const bool waits = light.empty() && job.running();  // its light will be there soon
   const bool soon = (screen.is_new || waits) && by_hand() && viewport.width * viewport.height > large;
   const bool slow = screen.drawn ? last_stats.cpu_ms > 80 : gl_->info().software;
@@ -60,9 +60,9 @@ bool App::picture_stale() const {
 /// moves; one of those for smooth edges is dropped.
 void App::draw_scene() {
   if (!screen.awaits_picture()) {
+    update_light();
     resize_picture();
     apply_edits();
-    update_light();
   }
   draw_pictures();
   if (screen.awaits_picture()) return;
@@ -95,7 +95,8 @@ void App::update_marks() {
     if (std::exchange(screen.marked, std::nullopt)) marks.clear();
     return;
   }
-  if (picture.linear().empty() || !geometry_ || applied_.light_stale || screen.marked == marks_key()) return;
+  if (picture.linear().empty() || !geometry_ || applied_.light_stale || light.under_way()) return;
+  if (screen.marked == marks_key()) return;
   screen.marked = marks_key();
   MarksParams params;
   params.scene = std::make_shared<const scene::Scene>(document.edited());

@@ -20,7 +20,7 @@ void ProbeLight::take(std::shared_ptr<LiveLight> live) {
     }
   }
   live_ = std::move(live);
-  moved_ms_ = live_->first_update_ms();
+  spent_ms_ = 0;
   keys_.clear();
   set_ = live_->probes();
   for (std::size_t i = 0; i < edges.size(); ++i) set_->probes[i].edges = std::move(edges[i]);
@@ -90,27 +90,28 @@ void ProbeLight::take_edges(std::size_t i, std::vector<probes::Edge> edges) {
   light_new_ = true;
 }
 
-bool ProbeLight::follows_slowly(const Document& document) const {
-  return live_ && moved_ms_ > patience_ms && moves(document.lighting());
+void ProbeLight::spend(const scene::LightingState& state, double budget) {
+  const Stopwatch watch;
+  report_ = live_->update(state, budget);
+  spent_ms_ += watch.milliseconds();
 }
 
-/// Whether more than groups' factors are others than those that were brought.
-bool ProbeLight::moves(scene::LightingState state) const {
-  if (!lighting_) return false;
-  state.group_scales = lighting_->group_scales;
-  return state != *lighting_;
+probes::ProbeSet ProbeLight::bake(const scene::Scene& scene) {
+  if (under_way()) spend(live_->session().lighting(), transport::unlimited_ms);
+  return live_->bake(scene);
 }
 
+/// Whether there is other light than update() has shown.
 bool ProbeLight::relight(const Document& document) {
   scene::LightingState state = document.lighting();
-  if (lighting_ == state) return false;
+  if (lighting_ == state && !under_way()) return false;
   if (live_) {
     // Until it is built anew for other lamps it holds still.
     if (!document.lamps_are_of(live_->scene())) return false;
-    const Stopwatch watch;
-    report_ = live_->update(state);
+    spend(state, budget_ms);
+    state = live_->session().shown();
+    if (lighting_ == state) return false;
     live_->refresh(*set_);
-    if (moves(state)) moved_ms_ = watch.milliseconds();
   } else {
     const std::vector<vec3>& scales = state.group_scales;
     const bool played = follow_keys(state.time);
@@ -178,7 +179,8 @@ ProbeLight::Update ProbeLight::update(const Document& document, const Settings& 
   }
   Stopwatch watch;
   const bool relit = relight(document) || light_new_;
-  out.relight_ms = watch.milliseconds();
+  out.relight_ms = live_ ? spent_ms_ : watch.milliseconds();
+  if (relit) spent_ms_ = 0;
 
   const bool hier_changed =
       !settings_ || settings_->hier != settings.hier || !(settings_->hier_params == settings.hier_params);

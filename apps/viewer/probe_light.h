@@ -57,18 +57,18 @@ class ProbeLight {
     bool replaced = false;  ///< places changed
     double relight_ms = 0, hier_ms = 0, upload_ms = 0;
   };
-  /// Whether update() would take longer than `patience_ms` to follow lamps, doors or surroundings, as far as
-  /// the last time tells, or the time that finding the light took. Groups that are dimmed alone are quick.
-  bool follows_slowly(const Document& document) const;
-  double patience_ms = 100;
-
   /// Brings light, hierarchy and the renderer up to date with the document and settings. Cheap when nothing
-  /// changed.
+  /// changed. Live light that takes longer than the budget is on its way then, and what there was stays.
   Update update(const Document& document, const Settings& settings, realtime::Renderer& renderer);
+  /// Milliseconds that update() spends on live light, about.
+  double budget_ms = transport::unlimited_ms;
+  bool under_way() const { return live_ && live_->session().under_way(); }
+  /// Live light as a bake would write it, once what is under way is there.
+  probes::ProbeSet bake(const scene::Scene& scene);
 
  private:
   bool relight(const Document& document);
-  bool moves(scene::LightingState state) const;
+  void spend(const scene::LightingState& state, double budget);
   /// Takes the light of the keys at a time, if there are keys and it is another time; whether it did.
   bool follow_keys(float time);
   /// Groups of a file that are `diffuse` are so as long as surroundings and pose are as baked.
@@ -81,7 +81,7 @@ class ProbeLight {
   std::optional<probes::ProbeSet> set_;
   std::string origin_, unsaved_;
   int works_ = 0;
-  double moved_ms_ = 0;  ///< that live light took the last time more than groups' factors had changed
+  double spent_ms_ = 0;  ///< on live light that is under way
   transport::RelightReport report_;
   probes::FittedSurfaces fitted_;
   probes::SurfaceLists records_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include <ssphh/core/stopwatch.h>
 #include <ssphh/scene/light_mode.h>
 #include <ssphh/scene/query.h>
 
@@ -32,9 +31,7 @@ LiveLight::LiveLight(std::shared_ptr<const scene::Scene> scene, const LiveLightP
     if (modes[g] == scene::LightMode::diffuse) relight.records.baked.push_back(static_cast<int>(g));
   session_.emplace(source_, std::move(places), relight, time, control);
   // The first one lights everything; the window should not wait for it
-  const Stopwatch watch;
   session_->update(rays::lighting_at(source_, time), control);
-  first_update_ms_ = watch.milliseconds();
 }
 
 probes::ProbeSet LiveLight::probes() const {

@@ -27,12 +27,14 @@ class LiveLight {
   LiveLight(std::shared_ptr<const scene::Scene> scene, const LiveLightParams& params, float time,
             const Control& control = {});
 
-  transport::RelightReport update(const scene::LightingState& state) { return session_->update(state); }
+  transport::RelightReport update(const scene::LightingState& state,
+                                  double budget_ms = transport::unlimited_ms) {
+    return session_->update(state, {}, budget_ms);
+  }
 
   const transport::RelightSession& session() const { return *session_; }
   const scene::Scene& scene() const { return *scene_; }
-  double first_update_ms() const { return first_update_ms_; }  ///< to light everything
-  bool is_glance() const { return glance_; }                   ///< not the whole light that was asked for
+  bool is_glance() const { return glance_; }  ///< not the whole light that was asked for
   const trace::TransportScene& source() const { return source_; }
 
   /// A set of these places that holds the reflected light as it is now, groups merged into one.
@@ -45,7 +47,6 @@ class LiveLight {
  private:
   std::shared_ptr<const scene::Scene> scene_;
   bool glance_;
-  double first_update_ms_ = 0;
   trace::TransportScene source_;
   std::optional<transport::RelightSession> session_;
 };

@@ -48,26 +48,33 @@ class HeldSlider : public GlStage {
   }
 };
 
-TEST_F(HeldSlider, LightThatTakesLongFollowsWhenItIsLetGo) {
+TEST_F(HeldSlider, LightThatTakesLongFollowsPieceByPiece) {
   app().open_tab = "Light";
   for (int i = 0; i < 3; ++i) turn();
   const DrawnThing label = text("environment turned");
   float x = label.from.x + 220;
   const float y = 0.5f * (label.from.y + label.to.y);
   const int whole = app().picture.width();
-  for (const double patience : {0.0, 1e6}) {
-    app().light.patience_ms = patience;
+  for (const double budget : {0.0, transport::unlimited_ms}) {
+    app().light.budget_ms = budget;
     const probes::ProbeSet before = app().light.set();
     const float turned = app().document.edits().environment_rotation;
     mouse_at(x, y, false);
     for (int i = 0; i < 4; ++i) mouse_at(x += 10, y, true);
     EXPECT_NE(app().document.edits().environment_rotation, turned);
-    EXPECT_EQ(app().light.set() == before, patience == 0) << "follows at once where it can";
+    EXPECT_EQ(app().light.set() == before, budget == 0) << "follows at once where it can";
+    EXPECT_EQ(app().light.under_way(), budget == 0);
+    EXPECT_FALSE(app().current() && budget == 0);
     EXPECT_LT(app().picture.width(), whole / 2) << "a small picture while it is held";
+    const auto followed = [&] { return app().light.set() != before; };
+    EXPECT_TRUE(turn_until(followed, [&] { mouse_at(x, y, true); })) << "also while it is held";
     mouse_at(x, y, false);
     settle();
-    EXPECT_NE(app().light.set(), before);
+    EXPECT_FALSE(app().light.under_way());
     EXPECT_EQ(app().picture.width(), whole);
+    const LiveLight& live = *app().light.live_light();
+    EXPECT_EQ(live.session().shown(), app().document.lighting());
+    EXPECT_EQ(app().light.set().probes[0].reflected, live.session().reflected()[0]);
   }
 }
 
