@@ -327,6 +327,7 @@ TEST_F(Rooms, RegionsHaveTheirOwnPoints) {
   EXPECT_FALSE(regions.contains("outside"));
   EXPECT_EQ(regions["inside"]["points"], 24);
   EXPECT_EQ(regions["inside"]["ratio"], all["results"][0]["ratio"]);
+  EXPECT_EQ(regions["inside"]["leak_ratio"], all["results"][0]["leak_ratio"]);
   const auto within = points(0.05f, 24, 3, scene::Bounds{{-3, 0, -1}, {0, 2.5f, 1.5f}});
   probes::LookupParams lookup;
   lookup.weights = probes::weights_named("mls");
@@ -384,6 +385,14 @@ TEST(Measure, ViewsAreRegionsOfWhatEachCameraSees) {
   // The lamp stands in room A, and the door is shut
   EXPECT_GT(all["view room-a"]["mean_truth"][0].number(), 0.1);
   EXPECT_EQ(all["view room-b"]["mean_truth"][0].number(), 0);
+  const std::vector<std::string> everywhere = {"--views", "--method", "ambient"};
+  const json::Value results = json_here(joined(command, everywhere))["results"];
+  ASSERT_EQ(results.size(), 2u);
+  const json::Value& leaks = results[1]["regions"];
+  EXPECT_EQ(leaks["view room-a"]["leak_ratio"], 0);
+  EXPECT_EQ(leaks["view room-b"]["leak_ratio"], 1) << "all of what ambient light puts there";
+  EXPECT_EQ(leaks["inside"]["leak_ratio"], results[1]["leak_ratio"]);
+  EXPECT_THAT(text_here(joined(command, everywhere)), HasSubstr(" 100.00 %"));
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ std::vector<MeasuredRegion> views_of(const MeasureOptions& o, const scene::Scene
     const float aspect = camera.camera.aspect.value_or(16.0f / 9);
     std::vector<rays::SurfacePoint> points =
         study::points_in_view(surfaces, camera, aspect, o.scene.time, o.points, o.seed);
-    if (!points.empty()) views.push_back({"view " + camera.camera.name, std::move(points), {}, 0});
+    if (!points.empty()) views.push_back({"view " + camera.camera.name, std::move(points), {}});
   }
   return views;
 }
@@ -170,8 +170,9 @@ MeasuredLight measured(const Candidate& candidate, const MeasureResult& at,
   result.leak_ratio = study::leak_ratio(looked_up, at.truth);
   for (const MeasuredRegion& region : at.regions) {
     const std::vector<vec3> there = study::look_up(*candidate.light, region.points, control);
-    result.regions.push_back({region.name, region.spp, study::lookup_error(there, region.truth),
-                              unseen_by(candidate, surfaces, region.points, time)});
+    result.regions.push_back(
+        {region.name, region.truth.spp, study::lookup_error(there, region.truth.estimates),
+         study::leak_ratio(there, region.truth), unseen_by(candidate, surfaces, region.points, time)});
   }
   if (candidate.live) result.frame_ms = frame_milliseconds(*candidate.live, time, control);
   return result;
@@ -209,6 +210,7 @@ json::Value light_json(const MeasuredLight& light) {
   for (const RegionError& region : light.regions) {
     json::Value& part = regions[region.name] = to_json(region.error);
     part["truth_spp"] = region.spp;
+    part["leak_ratio"] = region.leak_ratio;
     if (region.unseen) part["unseen"] = *region.unseen;
   }
   return object;
@@ -253,7 +255,7 @@ MeasureResult run_measure(const MeasureOptions& o, const Control& control) {
   result.points = find_points(o, o.box, surfaces, origins, control);
   std::vector<MeasuredRegion> boxes;
   for (const NamedBox& named : o.regions)
-    boxes.push_back({named.name, find_points(o, named.box, surfaces, origins, control), {}, 0});
+    boxes.push_back({named.name, find_points(o, named.box, surfaces, origins, control), {}});
   if (o.views) {
     for (MeasuredRegion& view : views_of(o, scene, geometry, surfaces)) boxes.push_back(std::move(view));
   }
@@ -269,10 +271,7 @@ MeasureResult run_measure(const MeasureOptions& o, const Control& control) {
         result.truth.dark, result.points.size());
   result.regions = inside_and_outside(surfaces, result.points, result.truth, o.scene.time);
   for (MeasuredRegion& region : boxes) {
-    study::ConvergedTruth truth =
-        study::converged_truth(tracer, region.points, params.path, params.noise, control);
-    region.truth = std::move(truth.estimates);
-    region.spp = truth.spp;
+    region.truth = study::trace_truth(tracer, region.points, params, control);
     result.regions.push_back(std::move(region));
   }
 
@@ -308,8 +307,8 @@ std::string to_text(const MeasureResult& result, const MeasureOptions&) {
     if (light.regions.size() < 2) continue;
     for (const RegionError& region : light.regions) {
       const std::string name = fmt::format("{}, {} points", region.name, region.error.points);
-      text += fmt::format("\n  {:<33}{}", name, error_columns(region.error));
-      if (region.unseen) text += fmt::format("{:>9}{}", "", unseen_column(region.unseen));
+      text += fmt::format("\n  {:<33}{} {:>6.2f} %{}", name, error_columns(region.error),
+                          100 * region.leak_ratio, unseen_column(region.unseen));
     }
   }
   return text + fmt::format(

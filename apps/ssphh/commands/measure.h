@@ -47,6 +47,7 @@ struct RegionError {
   std::string name;
   int spp = 0;  ///< paths of each point's truth
   study::LookupError error;
+  double leak_ratio = 0;  ///< share of the light of these points that stands on dark ones
   std::optional<double>
       unseen;  ///< share of the points that see none of the probes near them; of a probe file
 };

@@ -34,11 +34,14 @@ std::vector<MeasuredRegion> inside_and_outside(const rays::TransportSource& sour
                                                const std::vector<rays::SurfacePoint>& points,
                                                const study::TruthAtPoints& truth, float time) {
   const std::vector<std::uint8_t> is_inside = study::inside(source, points, time);
-  std::vector<MeasuredRegion> regions = {{"inside", {}, {}, truth.spp}, {"outside", {}, {}, truth.spp}};
+  std::vector<MeasuredRegion> regions = {{"inside", {}, {}}, {"outside", {}, {}}};
   for (std::size_t i = 0; i < points.size(); ++i) {
     MeasuredRegion& region = regions[is_inside[i] ? 0 : 1];
     region.points.push_back(points[i]);
-    region.truth.push_back(truth.estimates[i]);
+    region.truth.estimates.push_back(truth.estimates[i]);
+    region.truth.dark_at.push_back(truth.dark_at[i]);
+    region.truth.dark += truth.dark_at[i];
+    region.truth.spp = truth.spp;
   }
   std::erase_if(regions, [](const MeasuredRegion& region) { return region.points.empty(); });
   return regions;

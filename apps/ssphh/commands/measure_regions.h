@@ -24,9 +24,8 @@ void require_different_names(const std::vector<NamedBox>& boxes);
 
 struct MeasuredRegion {
   std::string name;
-  std::vector<rays::SurfacePoint> points;       ///< not empty
-  std::vector<rays::IrradianceEstimate> truth;  ///< at these
-  int spp = 0;                                  ///< paths that each got
+  std::vector<rays::SurfacePoint> points;  ///< not empty
+  study::TruthAtPoints truth;              ///< at these
 };
 
 /// `inside` and `outside` (study::inside), those of them that hold any of the points.
