@@ -58,7 +58,8 @@ void trace_texel_rows(const TracerData& data, const Emitters& emitters, const ra
                       std::vector<image::CubeMap>& maps, ProgressStage& stage, const Control& control) {
   const auto size = static_cast<std::size_t>(request.face_size);
   const rays::PathParams& path = request.path;
-  const PathOptions options{.max_depth = path.max_depth, .paths = request.paths};
+  PathOptions options{.max_depth = path.max_depth, .paths = request.paths};
+  if constexpr (std::is_same_v<Emitters, SceneEmitters>) options.panes = data.panes();
   const float mean_scale = 1 / (static_cast<float>(path.spp) * static_cast<float>(path.passes));
   for (std::size_t row = begin; row < end; ++row) {
     control.check();

@@ -4,15 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pane_mirrors.h"
 #include "posed_light.h"
 
 namespace ssphh::trace {
-
-/// The corner of the box farthest along the direction.
-inline vec3 farthest(const scene::Bounds& box, const vec3& direction) {
-  return {direction.x > 0 ? box.max.x : box.min.x, direction.y > 0 ? box.max.y : box.min.y,
-          direction.z > 0 ? box.max.z : box.min.z};
-}
 
 template <class Add>
 void PosedLight::for_images(int group, const Receiver& at, const Add& add) const {
@@ -50,7 +45,7 @@ void PosedLight::sample_mirrored_sky(const GroupEmitter& light, const Receiver& 
     auto toward = view.sample(SampleSequence(mix64(seed), static_cast<std::uint32_t>(s)).next2());
     if (!toward || !(toward->pdf > 0)) continue;
     toward->distance = std::numeric_limits<float>::infinity();
-    const vec3 share = mirrored_share(pane, image.start, position, *toward, task);
+    const vec3 share = mirrored_share(geometry_, pane, image.start, position, *toward, 0, task);
     if (!(max_component(share) > 0)) continue;
     const auto sky = lights_.distant_radiance(light.index, pane.mirrored_direction(toward->wi));
     if (sky) add(toward->wi, share * sky->radiance / (toward->pdf * expected));

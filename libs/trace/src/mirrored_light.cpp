@@ -3,7 +3,6 @@
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/require.h>
 
-#include "glass_passage.h"
 #include "mirror_images.h"
 #include "surface_gap.h"
 
@@ -41,24 +40,6 @@ bool PosedLight::may_arrive(const GroupEmitter& light, const Receiver& image) co
   if (!(light_sine < 1 && pane_sine < 1)) return true;
   const float cosine = glm::dot(to_light, to_pane) / (light_length * pane_length);
   return std::acos(glm::clamp(cosine, -1.0f, 1.0f)) <= std::asin(light_sine) + std::asin(pane_sine) + 1e-3f;
-}
-
-vec3 PosedLight::mirrored_share(const Pane& pane, const vec3& start, const vec3& position,
-                                const shading::LightSample& toward, RayTask& task) const {
-  Hit hit;
-  if (!pane.meets(position, toward.wi, hit) || !(hit.distance < toward.distance)) return vec3(0);
-  vec3 ray_origin;
-  const shading::Surface surface = geometry_.surface(hit, -toward.wi, ray_origin);
-  if (surface.alpha < 0.5f || !passes(surface.glass, 0)) return vec3(0);
-  shading::LightSample way = toward;
-  way.distance = hit.distance;
-  vec3 share = geometry_.transmittance(shadow_ray(start, position, way), 0, task);
-  if (!(max_component(share) > 0)) return vec3(0);
-  way.wi = pane.mirrored_direction(toward.wi);
-  way.distance = toward.distance - hit.distance;
-  share *= geometry_.transmittance(shadow_ray(ray_origin, surface.position, way), 0, task);
-  const float cosine = glm::clamp(-glm::dot(surface.normal, toward.wi), 0.0f, 1.0f);
-  return share * surface.glass.share * shading::sheet_reflectance(surface.glass, cosine);
 }
 
 void PosedLight::mirrored(int group, std::span<const rays::SurfacePoint> points, std::span<vec3> out) const {

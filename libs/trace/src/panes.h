@@ -9,6 +9,12 @@
 
 namespace ssphh::trace {
 
+/// The corner of the box farthest along the direction.
+inline vec3 farthest(const scene::Bounds& box, const vec3& direction) {
+  return {direction.x > 0 ? box.max.x : box.min.x, direction.y > 0 ? box.max.y : box.min.y,
+          direction.z > 0 ? box.max.z : box.min.z};
+}
+
 /// The triangles of one instance that lie in one plane. World space.
 struct Pane {
   struct Triangle {

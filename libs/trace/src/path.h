@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include <ssphh/core/random.h>
 #include <ssphh/shading/lights.h>
 #include <ssphh/shading/scattering.h>
 
 #include "glass_passage.h"
 #include "mirror_lobe.h"
-#include "posed_geometry.h"
+#include "pane_paths.h"
 #include "surface_gap.h"
 
 namespace ssphh::trace {
@@ -27,63 +26,12 @@ struct PathOptions {
   /// depth, and from that surface on light goes straight through glass of any kind.
   bool looks_up = false;
   rays::PathSet paths = rays::PathSet::all;
+  /// In which vertices look for emitters; null: only scattered rays find what panes mirror.
+  const PaneMirrors* panes = nullptr;
 };
 
 /// Paths of at least this depth end by Russian roulette.
 inline constexpr int roulette_depth = 3;
-
-/// Random numbers of sample `index` of a pixel. Every vertex has its own dimensions, so what happens at one
-/// does not shift those of the next.
-struct PathSampler {
-  std::uint64_t seed;
-  std::uint32_t index;
-
-  SampleSequence camera() const { return {seed, index}; }
-  /// The random numbers of a vertex.
-  struct Vertex {
-    float light, lobe;
-    vec2 point, direction;
-    float roulette;
-  };
-  Vertex vertex(int depth) const {
-    const auto u = sample_pairs(hash_combine(seed, static_cast<std::uint64_t>(depth) + 1), index);
-    return {u[0].x, u[0].y, u[1], u[2], u[3].x};
-  }
-  /// Of the n-th glass that a path meets: whether it goes straight on, and whether it takes what else glass
-  /// does.
-  vec2 glass(int n) const {
-    return sample_pairs(hash_combine(seed, 0x5eed61a550000000 + static_cast<std::uint64_t>(n)), index)[0];
-  }
-  /// For what a surface with a lookup mirrors.
-  PathSampler mirrored() const { return {hash_combine(seed, 0x3e1f0110), index}; }
-  /// What lets the ray pass that leaves a vertex: glass only toward lights, smooth sheets or all of it.
-  Passage passage(const PosedGeometry& scene, int vertex, bool shadow, bool all_glass = false,
-                  rays::PathSet paths = rays::PathSet::all) const {
-    const PassedGlass glass = !shadow || paths == rays::PathSet::diffuse ? PassedGlass::none
-                              : all_glass                                ? PassedGlass::all
-                                                                         : PassedGlass::smooth_sheets;
-    return {scene.filters() ? passage_seed(vertex, shadow) : 0, glass};
-  }
-
- private:
-  /// Never 0.
-  std::uint64_t passage_seed(int vertex, bool shadow) const {
-    const std::uint64_t event =
-        (std::uint64_t{index} << 32) | (static_cast<std::uint64_t>(vertex) << 1) | shadow;
-    return hash_combine(~seed, event) | 1;
-  }
-};
-
-/// Where a scattered or camera ray starts, and what MIS needs to know about it.
-struct PathVertex {
-  vec3 position;           ///< on the surface: lights are sampled from here
-  vec3 normal{0};          ///< geometric, toward wo; zero at the camera
-  float bsdf_pdf = 0;      ///< of the ray that leaves; 0: nothing else finds the light that it meets
-  bool looked_up = false;  ///< a lookup has given its indirect light, and the direct light that it holds
-  bool followed = false;   ///< the ray is of its specular lobe alone, and finds what the lookup holds, too
-  /// Then, of the ray that leaves: the specular lobe's share of what the surface reflects of its light.
-  vec3 mirrored{0};
-};
 
 /// Light along a path so far.
 struct PathLight {
@@ -226,6 +174,7 @@ void trace_path(const PosedGeometry& scene, const Emitters& emitters, Ray ray, c
       }
     }
 
+    const PathVertex before = vertex;
     vertex = {.position = surface.position,
               .normal = surface.geometric_normal,
               .looked_up = options.looks_up && !looks_up};
@@ -261,6 +210,18 @@ void trace_path(const PosedGeometry& scene, const Emitters& emitters, Ray ray, c
         if (max_component(arrives) > 0) visitor.add(depth + 1, toward->group, arrives, -toward->wi);
       }
     }
+    const bool by_panes = options.panes && !options.looks_up && options.paths == rays::PathSet::all;
+    if (by_panes && options.strategy != Strategy::bsdf_only && depth + 2 <= options.max_depth) {
+      const PathSampler own = sampler.by_panes();
+      const auto event =
+          next_event_by_pane(scene, emitters, *options.panes, vertex, ray_origin, own.vertex(vertices),
+                             options.strategy == Strategy::nee_only, own.passage(scene, vertices, true), task,
+                             [&](const vec3& wi) {
+                               const vec3 local = frame.to_local(wi);
+                               return local.z > 0 ? scattering.eval(local) : shading::BsdfValue{};
+                             });
+      if (event) visitor.add(depth + 2, event->group, light.throughput * event->value, event->emission);
+    }
     if constexpr (requires { emitters.mirrored(); }) {
       if (vertex.mirrored != vec3(0)) {
         const MirrorLobe lobe(surface, -ray.direction);
@@ -291,7 +252,15 @@ void trace_path(const PosedGeometry& scene, const Emitters& emitters, Ray ray, c
       light.absorption = surface.glass.inside == (side > 0) ? surface.glass.absorption : vec3(0);
     vertex.bsdf_pdf = sample->pdf;
     if (vertex.mirrored != vec3(0)) vertex.mirrored *= specular_share(surface, wo, sample->wi);
-    ray = {side > 0 ? ray_origin : beyond_surface, wi};
+    std::optional<PathVertex> image;
+    if (by_panes && sample->glass && sample->pdf == 0 && side > 0)
+      image = image_in_pane(*options.panes, before, surface, ray_origin, hit, wi,
+                            sampler.passage(scene, vertices, true), ray);
+    if (image) {
+      vertex = *image;
+    } else {
+      ray = {side > 0 ? ray_origin : beyond_surface, wi};
+    }
 
     // End paths by Russian roulette.
     const float brightness = max_component(light.throughput);

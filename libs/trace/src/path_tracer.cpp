@@ -27,7 +27,8 @@ TracerData::TracerData(SharedGeometry geometry_in, std::shared_ptr<const scene::
       world(scene::world_matrices(scene, time_in)),
       lights(scene, world, time),
       shaded(std::move(geometry_in), scene),
-      geometry(shaded, shaded.layout().poses(scene, time_in)) {}
+      geometry(shaded, shaded.layout().poses(scene, time_in)),
+      mirrors(find_panes(shaded), scene) {}
 
 const Hash128& TracerData::scene_hash() const {
   std::call_once(hash_once, [this] { hash = scene::scene_hash(scene); });

@@ -6,6 +6,7 @@
 #include <ssphh/core/require.h>
 
 #include "mirror_images.h"
+#include "pane_mirrors.h"
 #include "sample_sky.h"
 #include "surface_gap.h"
 #include "sweep.h"
@@ -111,7 +112,7 @@ vec3 PosedLight::arriving_share(const Receiver& at, const shading::LightSample& 
   if (!at.pane) return geometry_.transmittance(shadow_ray(at.start, at.position, sample), 0, task);
   shading::LightSample toward = sample;
   toward.wi = at.pane->mirrored_direction(sample.wi);
-  return mirrored_share(*at.pane, at.start, at.pane->mirrored(at.position), toward, task);
+  return mirrored_share(geometry_, *at.pane, at.start, at.pane->mirrored(at.position), toward, 0, task);
 }
 
 vec3 PosedLight::irradiance_of(const GroupEmitter& light, const Receiver& at, std::uint64_t seed,

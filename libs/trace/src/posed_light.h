@@ -65,9 +65,6 @@ class PosedLight final : public rays::DirectLight {
   void for_images(int group, const Receiver& at, const Add& add) const;
   /// Share of a sample's light that arrives.
   vec3 arriving_share(const Receiver& at, const shading::LightSample& sample, RayTask& task) const;
-  /// The same by way of a pane that lies in direction `toward.wi`, whose distance is the whole way.
-  vec3 mirrored_share(const Pane& pane, const vec3& start, const vec3& position,
-                      const shading::LightSample& toward, RayTask& task) const;
   /// Calls add(direction, L / density) for about `count` times the pane's share of the hemisphere: what the
   /// image's point gets of a sky by way of its pane.
   template <class Add>

@@ -240,7 +240,7 @@ void run_passes(const TracerData& data, const rays::IndirectLight* indirect, con
   if (state.passes_done >= params.path.passes) return;
 
   // With probes, paths carry direct light only.
-  PathOptions options{params.path.max_depth};
+  PathOptions options{.max_depth = params.path.max_depth, .panes = data.panes()};
   if (indirect) options.max_depth = std::min(options.max_depth, 1), options.looks_up = true;
   // Whose direct light is looked up is sampled nowhere else.
   std::vector<int> looked_up;

@@ -61,6 +61,17 @@ void trace_from(const TracerData& data, const SceneEmitters& emitters, const ray
       sums.add(1, light->group, through * light->radiance * (cosine * weight / light->pdf), -light->wi);
     }
   }
+  if (options.panes && options.max_depth >= 2) {
+    const PathSampler own = sampler.by_panes();
+    const auto event =
+        next_event_by_pane(data.geometry, emitters, *options.panes, vertex, start, own.vertex(0), false,
+                           own.passage(data.geometry, 0, true), task, [&](const vec3& wi) {
+                             const float cosine = std::max(glm::dot(wi, point.normal), 0.0f);
+                             return shading::BsdfValue{vec3(cosine), cosine / pi};
+                           });
+    sums.scale = 1;
+    if (event) sums.add(2, event->group, event->value, event->emission);
+  }
   if (options.max_depth == 1 && !emitters.found_by_rays(vertex)) return;
 
   // Follow a scattered ray: ∫ L cos θ dω = π times the mean of L.
@@ -112,6 +123,7 @@ std::vector<rays::IrradianceEstimate> PathTracer::surface_irradiance(
     weights.push_back(static_cast<float>(static_cast<double>(first_path(b + 1) - first_path(b)) /
                                          static_cast<double>(paths)));
   }
+  const PathOptions options{.max_depth = path.max_depth, .panes = data_->panes()};
   const float gap = default_surface_tolerance * scene_size(scene::world_bounds(data_->scene, data_->world));
 
   std::vector<BatchMean> means(points.size() * batches);
@@ -129,7 +141,7 @@ std::vector<rays::IrradianceEstimate> PathTracer::surface_irradiance(
             pixel_seed(path.seed, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(batch));
         const std::uint64_t count = first_path(batch + 1) - first_path(batch);
         for (std::uint32_t s = 0; s < count; ++s)
-          trace_from(*data_, emitters, points[i], gap, {seed, s}, {path.max_depth}, scope.task, sums);
+          trace_from(*data_, emitters, points[i], gap, {seed, s}, options, scope.task, sums);
         const float scale = 1 / static_cast<float>(count);
         means[task_id] = {sums.direct * scale, sums.indirect * scale};
         stage.advance(count);

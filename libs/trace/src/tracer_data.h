@@ -27,12 +27,14 @@ struct TracerData {
   shading::LightSet lights;
   ShadedGeometry shaded;
   PosedGeometry geometry;
+  PaneMirrors mirrors;
   std::vector<int> looked_up;  ///< light groups whose direct light counts as indirect at given points
   mutable SharedCount rays;
   mutable std::once_flag hash_once;
   mutable Hash128 hash;
 
   SceneEmitters emitters() const { return SceneEmitters(lights); }
+  const PaneMirrors* panes() const { return mirrors.any() ? &mirrors : nullptr; }
   std::size_t group_count() const { return lights.groups().size(); }
   const Hash128& scene_hash() const;
 };
