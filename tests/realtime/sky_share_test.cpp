@@ -96,6 +96,31 @@ TEST_F(SkyShare, OfANormalThatLeansTooFarIsNone) {
   for (int c = 0; c < 3; ++c) EXPECT_LT(middle[c], 0.01f * beside[c]) << c;
 }
 
+// Within a spacing's share of a wall SPHLs beyond it tell of the other side, and maps of what the sky lights are
+// too coarse.
+TEST_F(SkyShare, OfATableBesideAWallIsNoneInAClosedRoom) {
+  add(scene::make_quad({-300, 0, 300}, {600, 0, 0}, {0, 0, -600}), 1);
+  add(scene::make_quad({-2, 2.5f, 2}, {4, 0, 0}, {0, 0, -4}), 1);
+  for (const float z : {-2.0f, 2.0f}) add(scene::make_quad({-2, 0, z}, {4, 0, 0}, {0, 2.5f, 0}), 1);
+  for (const float x : {-2.0f, 2.0f}) add(scene::make_quad({x, 0, 2}, {0, 0, -4}, {0, 2.5f, 0}), 1);
+  add(scene::make_box({-0.8f, 0.7f, -1.99f}, {0.8f, 0.75f, -1}), 0);
+  look({0.5f, 1.7f, 1.5f}, {0, 0.7f, -1.6f});
+  const Pictures p = direct({{-1, 1.2f, 1},
+                             {1, 1.2f, 1},
+                             {0, 1.5f, -0.5f},
+                             {-1.2f, 1, -1},
+                             {-1, 1, -2.6f},
+                             {0, 1.2f, -2.5f},
+                             {1, 1, -2.6f},
+                             {2.6f, 1.4f, 0}});
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      EXPECT_LT(p.drawn.rgb(x, y).g, 1e-3f) << x << ' ' << y;
+      EXPECT_EQ(p.traced.rgb(x, y), vec3(0));
+    }
+  }
+}
+
 // A window 1 m wide. What 32 directions have of it is off by .99 of all light, five ways about the mirrored
 // one by .47.
 TEST_F(SkyShare, OfAFloorMirrorsTheWindowWhereItIs) {

@@ -19,7 +19,10 @@ float probe_depth(int probe, vec3 d) {
 // The way from x along d, as far as the probe at `eye` sees it: whether the sky or a surface stands behind its end. Below
 // 0: a probe that does not see the first step looks along x's own surface and has no say.
 float probe_sky(int probe, vec3 eye, vec3 x, vec3 d) {
-  float sky = -1, least = 0, most = 0.05 * frame.tone.w, slack = 1 + 3 / float(frame.maps.z - 2);
+  float least = 0, most = 0.05 * frame.tone.w, slack = 1 + 3 / float(frame.maps.z - 2);
+  float start = probe_depth(probe, normalize(x - eye));
+  if (distance(x, eye) >= slack * start) return -1;
+  float sky = start == NO_SURFACE ? -1 : 0;
   bool hidden = false;
   for (int i = 0; i < SKY_STEPS + SKY_HALVINGS; ++i) {
     float along = hidden ? 0.5 * (least + most) : most;
@@ -32,7 +35,6 @@ float probe_sky(int probe, vec3 eye, vec3 x, vec3 d) {
     } else {
       most = along;
       hidden = true;
-      if (least == 0) return -1;
     }
     if (!hidden && i == SKY_STEPS - 1) return probe_depth(probe, d) == NO_SURFACE ? 1 : 0;
   }
@@ -56,19 +58,22 @@ float sky_share(Surface s, float alpha) {
   }
   float turn = GOLDEN_ANGLE * float(number), aside = SKY_ASIDE * frame.tone.w * sqrt((float(number) + 0.5) / 16);
   vec3 place = s.position + basis_around(s.geometric_normal) * vec3(aside * cos(turn), aside * sin(turn), 0);
-  int base = candidates_at(place);
-  for (int i = 0; i < frame.grid_size.w && seen < SKY_SHARE_PROBES; ++i) {
-    vec4 near = candidate(base + i);
-    if (near.w < 0) break;
-    vec3 away = near.xyz - place;
-    float far = length(away);
-    if (!maybe_above(away, far * far, s)) continue;
-    if (!sees_probe(near.xyz, int(near.w), place, s.normal, s.geometric_normal, far)) continue;
-    for (int tap = 0; tap < SKY_TAPS; ++tap) {
-      float sky = probe_sky(int(near.w), near.xyz, from, ways[tap]);
-      share[tap] = share[tap] < 0 ? sky : sky < 0 ? share[tap] : min(share[tap], sky);
+  // A place aside may lie within a wall or beyond it, where others stand.
+  for (int attempt = 0; attempt < 2 && seen == 0; ++attempt, place = s.position) {
+    int base = candidates_at(place);
+    for (int i = 0; i < frame.grid_size.w && seen < SKY_SHARE_PROBES; ++i) {
+      vec4 near = candidate(base + i);
+      if (near.w < 0) break;
+      vec3 away = near.xyz - s.position;
+      float far = length(away);
+      if (!maybe_above(away, far * far, s)) continue;
+      if (!sees_probe(near.xyz, int(near.w), s.position, s.normal, s.geometric_normal, far)) continue;
+      for (int tap = 0; tap < SKY_TAPS; ++tap) {
+        float sky = probe_sky(int(near.w), near.xyz, from, ways[tap]);
+        share[tap] = share[tap] < 0 ? sky : sky < 0 ? share[tap] : min(share[tap], sky);
+      }
+      ++seen;
     }
-    ++seen;
   }
   float sum = 0, said = 0;
   for (int tap = 0; tap < SKY_TAPS; ++tap) {
