@@ -96,8 +96,8 @@ TEST_F(SkyShare, OfANormalThatLeansTooFarIsNone) {
   for (int c = 0; c < 3; ++c) EXPECT_LT(middle[c], 0.01f * beside[c]) << c;
 }
 
-// Within a spacing's share of a wall SPHLs beyond it tell of the other side, and maps of what the sky lights are
-// too coarse.
+// Within a spacing's share of a wall SPHLs beyond it tell of the other side, and maps of what the sky lights
+// are too coarse.
 TEST_F(SkyShare, OfATableBesideAWallIsNoneInAClosedRoom) {
   add(scene::make_quad({-300, 0, 300}, {600, 0, 0}, {0, 0, -600}), 1);
   add(scene::make_quad({-2, 2.5f, 2}, {4, 0, 0}, {0, 0, -4}), 1);

@@ -1,6 +1,6 @@
 #pragma once
-/// Light that a pane mirrors to a vertex of a path: found by sampling emitters from the vertex's mirror image,
-/// and by scattered rays, weighted against each other.
+/// Light that a pane mirrors to a vertex of a path: found by sampling emitters from the vertex's mirror
+/// image, and by scattered rays, weighted against each other.
 
 #include <ssphh/shading/scattering.h>
 
@@ -41,7 +41,8 @@ std::optional<PaneEvent> next_event_by_pane(const PosedGeometry& scene, const Em
   const vec3 share = mirrored_share(scene, *pane, start, vertex.position, *toward, passage, task, &mirrored);
   if (!(max_component(share) > 0)) return {};
   const float pdf = toward->pdf * chance;
-  const float weight = alone ? 1 : shading::power_heuristic(pdf, rays_count * f.pdf * max_component(mirrored));
+  const float weight =
+      alone ? 1 : shading::power_heuristic(pdf, rays_count * f.pdf * max_component(mirrored));
   return PaneEvent{toward->group, share * f.value * toward->radiance * (weight / pdf), emission};
 }
 

@@ -39,11 +39,13 @@ struct Values {
 
 /// Means over 16 samples of independent sequences along one ray, channel by channel.
 std::array<Samples, 3> light_along(const scene::Scene& scene, const trace::Ray& ray, Strategy strategy,
-                                   bool by_panes, int count, int max_depth = 4) {
+                                   bool by_panes, int count, int max_depth = 4,
+                                   int* deepest_found = nullptr) {
   const trace::TracerData data(std::make_shared<const trace::SceneGeometry>(scene), scene, 0);
   EXPECT_NE(data.panes(), nullptr);
   trace::RayTask task;
   std::array<Samples, 3> samples;
+  int deepest = 0;
   for (int i = 0; i < count; ++i) {
     Values values;
     for (std::uint32_t s = 0; s < 16; ++s) {
@@ -52,9 +54,11 @@ std::array<Samples, 3> light_along(const scene::Scene& scene, const trace::Ray& 
                  task, values);
     }
     EXPECT_LE(values.depth, max_depth);
+    deepest = std::max(deepest, values.depth);
     for (int c = 0; c < 3; ++c) samples[c].add(static_cast<double>(values.sum[c]) / 16);
   }
   EXPECT_EQ(task.invalid, 0u);
+  if (deepest_found) *deepest_found = deepest;
   return samples;
 }
 
@@ -106,13 +110,55 @@ scene::Scene sunny(float angle = 0.005f) {
 
 TEST(PanePaths, ASunInAPaneIsFoundByFew) {
   const scene::Scene scene = sunny();
-  const auto found = light_along(scene, {vec3(0.7f, 0.5f, 0), vec3(0, -1, 0)}, Strategy::mis, true, 64, 3);
+  const trace::Ray down{vec3(0.7f, 0.5f, 0), vec3(0, -1, 0)};
+  int deepest = 0;
+  const auto found = light_along(scene, down, Strategy::mis, true, 64, 2, &deepest);
+  EXPECT_EQ(deepest, 2) << "to the pane, and from there";
   const float cosine = std::sqrt(0.5f);
   const vec3 mirrored = shading::sheet_reflectance({.share = 1, .tint = tint}, cosine);
   const vec3 expected = vec3(0.6f, 0.5f, 0.4f) / pi * 3.0f * cosine * (vec3(1) + mirrored);
+  const auto direct = light_along(scene, down, Strategy::mis, true, 64, 1);
   for (int c = 0; c < 3; ++c) {
     EXPECT_NEAR(found[c].mean() / static_cast<double>(expected[c]), 1, 5e-3) << c;  // over the sun's extent
     EXPECT_LT(std::sqrt(found[c].variance_of_mean()), 2e-3 * found[c].mean()) << c;
+    const auto straight = static_cast<double>(expected[c] / (1 + mirrored[c]));
+    EXPECT_NEAR(direct[c].mean() / straight, 1, 5e-3) << "what is mirrored has depth 2";
+  }
+}
+
+// Light that goes down through a rough sheet meets the lower half of a pane whose upper half is above it.
+TEST(PanePaths, FindWhatGoesThroughARoughSheet) {
+  scene::Scene scene;
+  scene::Material frosted = tinted_glass();
+  frosted.specular_roughness = 0.6f;
+  add_object(scene, scene::make_quad(vec3(0.01f, 1, 2), vec3(3, 0, 0), vec3(0, 0, -4)), frosted, "sheet");
+  add_upright_pane(scene, 0);
+  add_light(scene, scene::LightType::sphere, 3, vec3(1.2f, 0.3f, 0.3f)).radius = 0.25f;
+  const trace::Ray ray{vec3(0.5f, 1.5f, 0), glm::normalize(vec3(-0.05f, -1, 0))};
+  const auto both = light_along(scene, ray, Strategy::mis, true, 4000);
+  const auto by_rays = light_along(scene, ray, Strategy::mis, false, 4000);
+  for (int c = 0; c < 3; ++c) EXPECT_TRUE(means_agree(both[c], by_rays[c], {1e-3, 3}, 1e-6)) << c;
+}
+
+TEST(PanePaths, PicturesAndProbesFindIt) {
+  const scene::Scene scene = sunny();
+  const float cosine = std::sqrt(0.5f);
+  const vec3 mirrored = shading::sheet_reflectance({.share = 1, .tint = tint}, cosine);
+  const vec3 direct = vec3(0.6f, 0.5f, 0.4f) / pi * 3.0f * cosine;
+  const trace::RenderState state = render(scene, view_point(vec3(0.7f, 0, 0), 4, 2));
+  for (int c = 0; c < 3; ++c) {
+    const auto channel = static_cast<double>(direct[c] * (1 + mirrored[c]));
+    EXPECT_NEAR(mean_of(state.color, c) / channel, 1, 5e-3) << c;
+  }
+  // The texels right below a probe, above the spot
+  rays::CubeRequest request;
+  request.position = vec3(0.7f, 0.05f, 0), request.face_size = 8;
+  request.path = {.max_depth = 2, .passes = 1, .spp = 16, .seed = 1};
+  const auto groups = trace::PathTracer(scene).incident_radiance(request, {});
+  const int down = 3;
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(groups[0].reflected.faces[down].rgb(4, 4)[c] / (direct[c] * (1 + mirrored[c])), 1, 1e-2f)
+        << c;
   }
 }
 
