@@ -16,9 +16,24 @@ float apparent_size(const Pane& pane, const vec3& position, const vec3& normal) 
   return pane.area / (pi * glm::dot(way, way) + pane.area);
 }
 
-/// The chance that any pane is chosen, where they cover so much of the hemisphere.
-float any_chance(float covered) {
-  return std::min(1.0f, 4 * covered);
+/// What a surface sees of panes.
+struct Seen {
+  float covered = 0;  ///< of the hemisphere, about
+  float count = 0;
+
+  /// Half of the choices by size, for lamps and skies, half even, for a sun, which fills a small pane as
+  /// well.
+  float chance(float size) const { return size > 0 ? 0.5f * (size / covered + 1 / count) : 0; }
+};
+
+Seen seen_from(const std::vector<Pane>& panes, const vec3& position, const vec3& normal) {
+  Seen seen;
+  for (const Pane& pane : panes) {
+    const float size = apparent_size(pane, position, normal);
+    seen.covered += size;
+    seen.count += size > 0 ? 1 : 0;
+  }
+  return seen;
 }
 
 bool is_flat(const Pane& pane, const scene::Scene& scene) {
@@ -29,9 +44,12 @@ bool is_flat(const Pane& pane, const scene::Scene& scene) {
   if (material.normal_texture.texture >= 0 || material.alpha_mode != scene::AlphaMode::opaque) return false;
   return mesh.normals.empty() || std::ranges::all_of(pane.triangles, [&](const Pane::Triangle& triangle) {
            const uvec3& corners = mesh.triangles[triangle.index];
-           const vec3 &a = mesh.normals[corners.x], &b = mesh.normals[corners.y],
-                      &c = mesh.normals[corners.z];
-           return std::min({glm::dot(a, b), glm::dot(b, c), glm::dot(c, a)}) > 1 - bent;
+           const vec3& a = mesh.positions[corners.x];
+           const vec3 normal =
+               glm::normalize(glm::cross(mesh.positions[corners.y] - a, mesh.positions[corners.z] - a));
+           const auto along = [&](std::uint32_t corner) { return glm::dot(mesh.normals[corner], normal); };
+           const float first = along(corners.x), second = along(corners.y), third = along(corners.z);
+           return std::min({first, second, third}) > 1 - bent || std::max({first, second, third}) < bent - 1;
          });
 }
 
@@ -43,26 +61,20 @@ PaneMirrors::PaneMirrors(std::vector<Pane> panes, const scene::Scene& scene) : p
 }
 
 PaneMirrors::Choice PaneMirrors::choose(const vec3& position, const vec3& normal, float u) const {
-  float covered = 0;
-  for (const Pane& pane : panes_) covered += apparent_size(pane, position, normal);
-  const float any = any_chance(covered);
-  if (!(u < any)) return {};
-  float left = u / any * covered;
+  const Seen seen = seen_from(panes_, position, normal);
   Choice choice;
   for (const Pane& pane : panes_) {
-    const float size = apparent_size(pane, position, normal);
-    if (!(size > 0)) continue;
-    choice = {&pane, any * size / covered};
-    left -= size;
-    if (left < 0) break;
+    const float chance = seen.chance(apparent_size(pane, position, normal));
+    if (!(chance > 0)) continue;
+    choice = {&pane, chance};
+    u -= chance;
+    if (u < 0) break;
   }
   return choice;
 }
 
 float PaneMirrors::chance(const vec3& position, const vec3& normal, const Pane& pane) const {
-  float covered = 0;
-  for (const Pane& other : panes_) covered += apparent_size(other, position, normal);
-  return covered > 0 ? any_chance(covered) * apparent_size(pane, position, normal) / covered : 0;
+  return seen_from(panes_, position, normal).chance(apparent_size(pane, position, normal));
 }
 
 const Pane* PaneMirrors::at(const Hit& hit) const {

@@ -14,11 +14,10 @@ class PaneMirrors {
   bool any() const { return !panes_.empty(); }
 
   struct Choice {
-    const Pane* pane = nullptr;  ///< null: none, this time
+    const Pane* pane = nullptr;  ///< null: none can be seen
     float chance = 0;            ///< of this choice
   };
-  /// A pane that a surface may see, those that look large rather than others; none the more often, the less
-  /// panes there are to see.
+  /// A pane that a surface may see, those that look large more often than others.
   Choice choose(const vec3& position, const vec3& normal, float u) const;
   /// With which choose() takes the pane.
   float chance(const vec3& position, const vec3& normal, const Pane& pane) const;

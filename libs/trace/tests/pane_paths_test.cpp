@@ -214,6 +214,24 @@ TEST(PanePaths, BentAndCutOutPanesAreLeftToScatteredRays) {
   scene.materials[1].alpha_mode = scene::AlphaMode::opaque;
   scene.meshes[1].normals = {vec3(1, 0, 0), vec3(1, 0, 0), glm::normalize(vec3(1, 0.2f, 0)), vec3(1, 0, 0)};
   EXPECT_FALSE(mirrors());
+  scene.meshes[1].normals.assign(4, glm::normalize(vec3(1, 0.2f, 0)));
+  EXPECT_FALSE(mirrors()) << "all of them lean";
+  scene.meshes[1].normals.assign(4, vec3(-1, 0, 0));
+  EXPECT_TRUE(mirrors()) << "a pane has two sides";
+}
+
+// A sun fills a pane that looks small as well.
+TEST(PanePaths, ADistantPaneIsFoundByFewToo) {
+  scene::Scene scene = sunny();
+  add_upright_pane(scene, -0.4f, 0.02f);  // close and small
+  scene.nodes.back().local.translation = vec3(29, 0, 0);
+  scene.lights[0].node = add_node(scene, "low sun", vec3(0), looking(vec3(-30, -1, 0)));
+  const trace::Ray down{vec3(30, 0.5f, 0), vec3(0, -1, 0)};
+  const auto found = light_along(scene, down, Strategy::mis, true, 256, 2);
+  const auto direct = light_along(scene, down, Strategy::mis, true, 256, 1);
+  const vec3 mirrored = shading::sheet_reflectance({.share = 1, .tint = tint}, 1);
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(found[c].mean() / direct[c].mean() - 1, static_cast<double>(mirrored[c]), 0.02) << c;
 }
 
 }  // namespace
