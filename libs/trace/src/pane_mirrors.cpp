@@ -78,9 +78,10 @@ float PaneMirrors::chance(const vec3& position, const vec3& normal, const Pane& 
 }
 
 const Pane* PaneMirrors::at(const Hit& hit) const {
-  for (const Pane& pane : std::ranges::equal_range(panes_, hit.instance, {}, &Pane::instance)) {
-    for (const Pane::Triangle& triangle : pane.triangles)
-      if (triangle.index == hit.triangle) return &pane;
+  auto pane = std::ranges::lower_bound(panes_, hit.instance, {}, &Pane::instance);
+  for (; pane != panes_.end() && pane->instance == hit.instance; ++pane) {
+    if (std::ranges::find(pane->triangles, hit.triangle, &Pane::Triangle::index) != pane->triangles.end())
+      return &*pane;
   }
   return nullptr;
 }
