@@ -1,6 +1,7 @@
 #include "pane_mirrors.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "glass_passage.h"
 #include "surface_gap.h"
@@ -57,6 +58,8 @@ bool is_flat(const Pane& pane, const scene::Scene& scene) {
 
 PaneMirrors::PaneMirrors(std::vector<Pane> panes, const scene::Scene& scene) : panes_(std::move(panes)) {
   std::erase_if(panes_, [&](const Pane& pane) { return !is_flat(pane, scene); });
+  std::ranges::stable_sort(panes_, std::greater<>(), &Pane::area);
+  panes_.resize(std::min(panes_.size(), most_panes));
   std::ranges::stable_sort(panes_, {}, &Pane::instance);
 }
 

@@ -9,6 +9,9 @@ namespace ssphh::trace {
 
 class PaneMirrors {
  public:
+  /// Each vertex asks all of them: the largest are kept, the others are left to scattered rays.
+  static constexpr std::size_t most_panes = 256;
+
   /// Of those panes that mirror in one direction wherever they are met.
   PaneMirrors(std::vector<Pane> panes, const scene::Scene& scene);
   bool any() const { return !panes_.empty(); }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <map>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -200,6 +201,24 @@ TEST(PanePaths, ChancesOfAllPanesAreThatOfAny) {
       EXPECT_NEAR(static_cast<float>(count) / draws, mirrors.chance(at, up, *pane), 1e-3f);
     EXPECT_EQ(taken.size(), at.x == 2 ? 4u : 5u) << "one that the point lies in mirrors nothing to it";
   }
+}
+
+TEST(PanePaths, OfVeryManyTheLargestAreAsked) {
+  scene::Scene scene;
+  add_floor(scene, lambertian(vec3(0.5f)));
+  for (int i = 0; i < 300; ++i) add_upright_pane(scene, 0.1f * static_cast<float>(i), i < 44 ? 1.0f : 2.0f);
+  const trace::TracerData data(std::make_shared<const trace::SceneGeometry>(scene), scene, 0);
+  std::set<const trace::Pane*> asked;
+  for (int i = 0; i < 20000; ++i) {
+    const auto choice =
+        data.panes()->choose(vec3(-1, 0, 0), vec3(0, 1, 0), (static_cast<float>(i) + 0.5f) / 20000);
+    ASSERT_NE(choice.pane, nullptr);
+    EXPECT_GT(choice.pane->area, 3) << "a small one";
+    asked.insert(choice.pane);
+  }
+  EXPECT_EQ(asked.size(), trace::PaneMirrors::most_panes);
+  EXPECT_EQ(data.panes()->at({1, 0, {}, 0}), nullptr) << "a small one is left to scattered rays";
+  EXPECT_NE(data.panes()->at({300, 0, {}, 0}), nullptr);
 }
 
 TEST(PanePaths, BentAndCutOutPanesAreLeftToScatteredRays) {
