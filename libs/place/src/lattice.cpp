@@ -9,6 +9,7 @@ namespace {
 
 constexpr int offset_count = 8;
 constexpr double most_places = 1 << 28;
+constexpr double share_beyond = 0.01;  ///< that a place outside of the box counts
 
 /// Offset, in spacings from box.min, that leaves as much room on both sides.
 vec3 centred_offset(const scene::Bounds& box, float spacing) {
@@ -21,10 +22,14 @@ vec3 centred_offset(const scene::Bounds& box, float spacing) {
   return offset;
 }
 
-double score(const std::vector<Site>& sites, float spacing, const SiteRules& rules) {
+double score(const std::vector<vec3>& places, const std::vector<Site>& sites, const scene::Bounds& box,
+             float spacing, const SiteRules& rules) {
   double sum = 0;
-  for (const Site& site : sites) {
-    if (valid(site, rules)) sum += std::min(1.0f, site.nearest / (0.25f * spacing));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!valid(sites[i], rules)) continue;
+    const bool within = glm::all(glm::greaterThanEqual(places[i], box.min)) &&
+                        glm::all(glm::lessThanEqual(places[i], box.max));
+    sum += (within ? 1 : share_beyond) * double{std::min(1.0f, sites[i].nearest / (0.25f * spacing))};
   }
   return sum;
 }
@@ -80,13 +85,22 @@ std::vector<vec3> lattice_points(const Lattice& lattice) {
 
 Lattice choose_lattice(const rays::TransportSource& source, const scene::Bounds& box, float spacing,
                        const SiteRules& rules, const Control& control) {
+  const scene::Bounds wide = widened(box, spacing);
+  std::vector<vec3> offsets{centred_offset(wide, spacing)};
+  for (int i = 1; i <= offset_count; ++i) offsets.push_back(spread_in_cube(i));
+  // Where the box is thinner than the spacing, most of these lie beside it
+  const vec3 start = (box.min - wide.min) / spacing, thickness = (box.max - box.min) / spacing;
+  if (std::min({thickness.x, thickness.y, thickness.z}) < 1) {
+    for (int i = 1; i <= offset_count; ++i)
+      offsets.push_back(start + glm::min(thickness, vec3(1)) * spread_in_cube(i));
+  }
   Lattice best;
   double best_score = -1;
-  for (int i = 0; i <= offset_count; ++i) {
-    const Lattice lattice =
-        make_lattice(box, spacing, i == 0 ? centred_offset(box, spacing) : spread_in_cube(i));
+  for (const vec3& offset : offsets) {
+    const Lattice lattice = make_lattice(wide, spacing, offset);
+    const std::vector<vec3> places = lattice_points(lattice);
     const double s =
-        score(look_around(source, lattice_points(lattice), coarse_fan_size, control), spacing, rules);
+        score(places, look_around(source, places, coarse_fan_size, control), box, spacing, rules);
     if (s > best_score) best = lattice, best_score = s;
   }
   return best;

@@ -90,7 +90,7 @@ std::vector<Draft> sparse_drafts(const rays::TransportSource& source, const Plac
   sparse.manual.clear();
   sparse.levels = 0;
   const PlaceContext context{source, sparse, control, rules, spacing};
-  const Lattice lattice = choose_lattice(source, widened(bounds, spacing), spacing, rules, control);
+  const Lattice lattice = choose_lattice(source, bounds, spacing, rules, control);
   std::vector<Draft> drafts = grid_drafts(context, lattice, counts);
   counts.redundant += std::erase_if(drafts, [&](const Draft& draft) {
     return std::ranges::any_of(regions.boxes, [&](const auto& box) { return inside(box, draft.position); });
@@ -112,7 +112,7 @@ std::optional<Attempt> attempt(const rays::TransportSource& source, const PlaceP
   others.manual.clear();
   for (const scene::Bounds& region : regions.boxes) {
     const bool first = &region == &regions.boxes[0];
-    const Lattice lattice = choose_lattice(source, widened(region, spacing), spacing, a.rules, control);
+    const Lattice lattice = choose_lattice(source, region, spacing, a.rules, control);
     const PlaceContext own{source, first ? params : others, control, a.rules, spacing};
     std::vector<Draft> drafts = grid_drafts(own, lattice, a.counts);
     if (first) a.lattice = lattice;

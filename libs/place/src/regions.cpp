@@ -9,6 +9,7 @@
 #include <ssphh/core/sphere.h>
 
 #include "draft.h"
+#include "rooms.h"
 
 namespace ssphh::place {
 namespace {
@@ -25,14 +26,8 @@ constexpr float sky_share = 0.4f;    ///< of the rays of a place in the open, at
 constexpr double open_share = 0.95;  ///< of the places around regions in the open
 constexpr float hall_size =
     4;  ///< median of the harmonic mean distances in a wide hall, in sides of the largest box
-constexpr int inside_places = 256;
-constexpr float walled_share = 0.8f, room_share = 0.03f;  ///< of a place's rays; of a box's places
 
 using Voxel = std::array<int, 3>;
-
-bool overlap(const scene::Bounds& a, const scene::Bounds& b) {
-  return glm::all(glm::lessThan(a.min, b.max)) && glm::all(glm::lessThan(b.min, a.max));
-}
 
 struct Normals {
   glm::dvec3 sum{0};
@@ -80,51 +75,7 @@ std::vector<scene::Bounds> boxes_of(std::set<Voxel> left, const vec3& origin, fl
     }
     boxes.push_back(box);
   }
-  for (bool merged = true; merged;) {
-    merged = false;
-    for (std::size_t i = 0; i < boxes.size() && !merged; ++i) {
-      for (std::size_t j = i + 1; j < boxes.size() && !merged; ++j) {
-        if (!overlap(boxes[i], boxes[j])) continue;
-        boxes[i].add(boxes[j].min);
-        boxes[i].add(boxes[j].max);
-        boxes.erase(boxes.begin() + static_cast<std::ptrdiff_t>(j));
-        merged = true;
-      }
-    }
-  }
-  std::ranges::sort(boxes, std::greater<>(), volume_of);
-  return boxes;
-}
-
-/// Places spread over a box, `count` of those that `wanted` takes, or fewer.
-template <class Wanted>
-std::vector<vec3> places_in(const scene::Bounds& box, int count, const Wanted& wanted) {
-  std::vector<vec3> places;
-  for (int i = 0; i < 8 * count && static_cast<int>(places.size()) < count; ++i) {
-    const vec3 place = box.min + spread_in_cube(i) * (box.max - box.min);
-    if (wanted(place)) places.push_back(place);
-  }
-  return places;
-}
-
-/// Whether a good share of the places in a box is walled in by what is in the box: rooms, not a body.
-bool has_rooms(const rays::TransportSource& source, const scene::Bounds& box) {
-  const std::vector<vec3> places = places_in(box, inside_places, [](const vec3&) { return true; });
-  std::vector<rays::RayQuery> rays;
-  for (const vec3& place : places) {
-    for (int i = 0; i < coarse_fan_size; ++i)
-      rays.push_back({place, spherical_fibonacci(i, coarse_fan_size), glm::distance(box.min, box.max)});
-  }
-  std::vector<rays::RayHit> hits(rays.size());
-  source.intersect(0, rays, hits);
-  int walled = 0;
-  for (std::size_t p = 0; p < places.size(); ++p) {
-    const auto first = hits.begin() + static_cast<std::ptrdiff_t>(p * coarse_fan_size);
-    walled += std::count_if(first, first + coarse_fan_size, [](const rays::RayHit& hit) {
-                return !hit.escaped() && !hit.back;
-              }) > walled_share * coarse_fan_size;
-  }
-  return walled > room_share * static_cast<float>(places.size());
+  return merged(std::move(boxes));
 }
 
 enum class Around { narrow, hall, open };
@@ -148,13 +99,10 @@ Around look_outside(const rays::TransportSource& source, const scene::Bounds& bo
   return wide ? Around::hall : Around::narrow;
 }
 
-/// Boxes around the detail in `bounds`; none where they are not worth it. Sets `in_hall` where it is no sky
-/// that the rest sees.
-std::vector<scene::Bounds> divide(const rays::TransportSource& source,
-                                  const std::vector<rays::PartPoint>& points, const scene::Bounds& bounds,
-                                  bool& in_hall, const Control& control) {
+/// Boxes around the detail in `bounds`; none where there is nothing else.
+std::vector<scene::Bounds> detail_boxes(const std::vector<rays::PartPoint>& points,
+                                        const scene::Bounds& bounds) {
   const float extent = max_component(bounds.max - bounds.min);
-  if (!(extent > 0)) return {};
   std::vector<rays::PartPoint> here;
   std::ranges::copy_if(points, std::back_inserter(here),
                        [&](const rays::PartPoint& p) { return inside(bounds, p.point.position); });
@@ -165,19 +113,39 @@ std::vector<scene::Bounds> divide(const rays::TransportSource& source,
     const vec3 origin = bounds.min - 0.25f * size;
     boxes = boxes_of(detailed_voxels(here, origin, size), origin, size);
   }
-  if (boxes.empty() || boxes.size() > most_regions) return {};
-  double sum = 0;
   for (scene::Bounds& box : boxes) {
     // A quarter of a voxel more: triangles reach farther than their points.
     box.min = glm::max(box.min - 0.25f * size, bounds.min);
     box.max = glm::min(box.max + 0.25f * size, bounds.max);
-    sum += volume_of(box);
   }
-  if (sum > least_saving * volume_of(bounds)) return {};
-  const Around around = look_outside(source, bounds, boxes, control);
-  if (around == Around::narrow) return {};
-  in_hall = in_hall || around == Around::hall;
   return boxes;
+}
+
+/// Whether probes gain by keeping to the boxes.
+bool worth_it(const std::vector<scene::Bounds>& boxes, const scene::Bounds& bounds) {
+  if (boxes.empty() || boxes.size() > most_regions) return false;
+  double sum = 0;
+  for (const scene::Bounds& box : boxes) sum += volume_of(box);
+  return sum <= least_saving * volume_of(bounds);
+}
+
+/// Boxes around the detail in `bounds`, or else around its rooms; none where they are not worth it. Sets
+/// `in_hall` where it is no sky that the rest sees.
+std::vector<scene::Bounds> divide(const rays::TransportSource& source,
+                                  const std::vector<rays::PartPoint>& points, const scene::Bounds& bounds,
+                                  bool whole, bool& in_hall, const Control& control) {
+  if (!(max_component(bounds.max - bounds.min) > 0)) return {};
+  for (const bool rooms : {false, true}) {
+    if (rooms && !whole) return {};
+    const std::vector<scene::Bounds> boxes =
+        rooms ? room_boxes(source, bounds, control) : detail_boxes(points, bounds);
+    if (!worth_it(boxes, bounds)) continue;
+    const Around around = look_outside(source, bounds, boxes, control);
+    if (around == Around::narrow) continue;
+    in_hall = in_hall || around == Around::hall;
+    return boxes;
+  }
+  return {};
 }
 
 }  // namespace
@@ -194,7 +162,7 @@ Regions detail_regions(const rays::TransportSource& source, const Control& contr
   for (int round = 0; round < most_rounds && !left.empty(); ++round) {
     std::vector<scene::Bounds> next;
     for (const scene::Bounds& box : left) {
-      const std::vector<scene::Bounds> parts = divide(source, points, box, in_hall, control);
+      const std::vector<scene::Bounds> parts = divide(source, points, box, round == 0, in_hall, control);
       if (parts.empty()) regions.boxes.push_back(box);
       std::ranges::copy(parts, std::back_inserter(next));
     }

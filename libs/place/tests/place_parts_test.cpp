@@ -139,6 +139,24 @@ TEST(Lattice, WhereNothingIsNearItIsCentredInItsBoxWhereverThatStands) {
   EXPECT_LT(glm::distance(lattice.origin, low + 0.3f), 1e-4f);
 }
 
+TEST(Lattice, OfAFlatHouseStandsInItsRoomsNotAboveTheRoof) {
+  // Floor and roof of 40 m by 40, 3 m apart: places 8 m apart are freer above.
+  const TriangleSource house([] {
+    scene::Scene scene;
+    for (const float y : {0.0f, 2.8f}) {
+      scene.meshes.push_back(scene::make_box({0, y, 0}, {40, y + 0.2f, 40}));
+      scene.instances.push_back({static_cast<int>(scene.instances.size()), 0, -1, ""});
+    }
+    scene.nodes.emplace_back();
+    return scene;
+  }());
+  const Lattice lattice = choose_lattice(house, house.part_bounds(0), 8, {}, {});
+  for (const vec3& place : lattice_points(lattice)) {
+    EXPECT_GT(place.y, 0.2f);
+    EXPECT_LT(place.y, 2.8f);
+  }
+}
+
 TEST(Lattice, PlacesFillTheBoxFromAnOffset) {
   const Lattice lattice = make_lattice({vec3(1, 2, 3), vec3(4, 4, 9)}, 2, {0.25f, 0.5f, 0.9f});
   EXPECT_EQ(lattice.size, glm::ivec3(2, 1, 3));

@@ -146,5 +146,34 @@ TEST(Regions, TheOpenRestHasAtMostFortyEightPlaces) {
   EXPECT_GT(places(0.89f * widest), 48);
 }
 
+/// Its walls are a few long triangles, far apart beside its width, and the plain's voxels as wide as it is
+/// long across.
+TEST(Regions, ATunnelIsOneWhateverItsUnit) {
+  for (const float unit : {1.0f, 0.001f, 100.0f}) {
+    const auto box = [&](const vec3& low, const vec3& high) {
+      return scene::make_box(unit * low, unit * high);
+    };
+    scene::Scene scene;
+    add(scene, scene::make_quad(unit * vec3(-40, 0, 910), unit * vec3(80, 0, 0), unit * vec3(0, 0, -950)));
+    for (const float x : {-3.3f, 3.0f}) add(scene, box({x, 0, 0}, {x + 0.3f, 4, 870}));
+    add(scene, box({-3.3f, 4, 0}, {3.3f, 4.3f, 870}));
+    for (int i = 0; i < 20; ++i) {
+      const float z = 20 + 42 * static_cast<float>(i);
+      add(scene, box({-2.8f, 0.3f, z}, {-1.2f, 1.3f, z + 4}));
+    }
+    const SampledSource source(scene);
+    const Regions regions = detail_regions(source, {});
+    ASSERT_EQ(regions.boxes.size(), 1u) << unit;
+    EXPECT_TRUE(regions.open_rest);
+    EXPECT_TRUE(holds(regions.boxes[0], unit * vec3(-3, 0.5f, 20), unit * vec3(3, 3.5f, 850))) << unit;
+    EXPECT_LT(regions.boxes[0].max.x, 8 * unit);
+    const std::vector<PlacedProbe> probes = place_probes(source, {}).probes;
+    const auto within = std::ranges::count_if(probes, [&](const PlacedProbe& probe) {
+      return std::abs(probe.position.x) < 3 * unit && probe.position.y < 4 * unit;
+    });
+    EXPECT_GT(within, 60) << unit << ": of " << probes.size();
+  }
+}
+
 }  // namespace
 }  // namespace ssphh::place

@@ -45,7 +45,7 @@ ProbeGrid make_probe_grid(const rays::TransportSource& source, const ProbeGridPa
   rules.clearance = std::min(rules.clearance, 0.1f * spacing);
   rules.back_limit = place::calibrated_back_limit(source, params.interest);
   ProbeGrid grid;
-  grid.lattice = place::choose_lattice(source, box, spacing, rules, control);
+  grid.lattice = place::choose_lattice(source, source.part_bounds(0), spacing, rules, control);
   const std::vector<vec3> points = place::lattice_points(grid.lattice);
   const std::vector<place::Site> sites = place::look_around(source, points, place::fan_size, control);
   for (std::size_t i = 0; i < points.size(); ++i) {

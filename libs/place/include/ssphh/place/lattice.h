@@ -32,9 +32,11 @@ double lattice_places(const scene::Bounds& box, float spacing);
 /// Throws Error for a spacing of 0 or less, no number, or of more than 2^28 places.
 Lattice make_lattice(const scene::Bounds& box, float spacing, const vec3& offset);
 
-/// Centred, and at eight offsets that fill the cell evenly. Each counts its valid places, less those nearer
-/// than a quarter of the spacing to a surface in proportion: a column of probes that falls into a wall hides
-/// what the wall's sides are lit by. The best one; ties go to the first.
+/// Of the box, widened: centred, and at eight offsets that fill the cell evenly. Each counts its valid
+/// places, less those nearer than a quarter of the spacing to a surface in proportion: a column of probes
+/// that falls into a wall hides what the wall's sides are lit by. A place over the box itself counts a
+/// hundredth: of flat scenes the rooms are meant, not the air above their roofs. The best one; ties go to the
+/// first.
 Lattice choose_lattice(const rays::TransportSource& source, const scene::Bounds& box, float spacing,
                        const SiteRules& rules, const Control& control);
 
