@@ -282,5 +282,37 @@ TEST(RecordPlaces, GathersThatAreJoinedHoldWhatEachHeld) {
   EXPECT_EQ(joined.openness(), openness);
 }
 
+TEST(RecordPlaces, NoneIsOnTheUndersideOfWhatLiesOnTheGround) {
+  // A road on a plain, both of one side: from a hair below the road one sees the sky below the ground. One
+  // that lies on stilts has an underside that a camera may see.
+  for (const float gap : {0.0f, 0.5f}) {
+    scene::Scene scene = scene::make_builtin("tunnel");
+    scene.instances.clear(), scene.meshes.clear(), scene.animations.clear();
+    const auto add = [&](scene::Mesh mesh) {
+      scene.meshes.push_back(std::move(mesh));
+      scene.instances.push_back(
+          {static_cast<int>(scene.meshes.size()) - 1, static_cast<int>(scene.nodes.size()), 0, ""});
+      scene.nodes.emplace_back();
+    };
+    add(scene::make_quad({-20, 0, 20}, {40, 0, 0}, {0, 0, -40}));
+    add(scene::make_box({-3, gap, -18}, {3, gap + 0.5f, 18}));
+    const trace::TransportScene source(scene);
+    const std::array places{vec3(-10, 2, 0), vec3(10, 2, 0)};
+    const transport::TransportNetwork network(source, places, {.directions = 64, .link_rays = 16});
+    const auto gather = gather_where_needed(network, {2000, 16, 1, {0}}, std::array{0.0f}, [&](float) {
+      const std::vector<transport::Irradiance4> dark(network.surfel_count());
+      return transport::PosedIrradiance{{}, std::vector<transport::Irradiance4>(network.patch_count()), dark};
+    });
+    const auto below = std::ranges::count_if(gather->points(), [&](const rays::SurfacePoint& p) {
+      return p.normal.y < -0.9f && std::abs(p.position.x) < 3 && p.position.y > gap - 0.1f;
+    });
+    if (gap > 0) {
+      EXPECT_GT(below, 5);
+    } else {
+      EXPECT_EQ(below, 0);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ssphh::test

@@ -15,6 +15,8 @@ namespace {
 
 /// What a lookup leaves out, of its whole weight.
 constexpr float left_out = 0.001f;
+/// Spacings between which sight of the one's height tells nothing of the other's.
+constexpr float much_coarser = 8;
 
 /// 1 and the tangential offset, of each share.
 using Places = std::array<vec3, most_surface_points>;
@@ -127,12 +129,14 @@ SurfaceInterpolation::SurfaceInterpolation(std::span<const rays::SurfacePoint> p
   });
 }
 
-std::span<const SurfaceShare> SurfaceInterpolation::at(const rays::SurfacePoint& at, SurfaceShares& shares,
-                                                       std::uint32_t without) const {
-  if (at.moves) return {};
+SurfaceInterpolation::Candidates SurfaceInterpolation::candidates(const rays::SurfacePoint& at,
+                                                                  SurfaceShares& shares,
+                                                                  std::uint32_t without) const {
+  Candidates found;
+  if (at.moves) return found;
   const vec3 &x = at.position, &n = at.normal;
   // Those that count most, sorted
-  std::size_t count = 0;
+  std::size_t& count = found.count;
   const auto before = [](const SurfaceShare& a, const SurfaceShare& b) {
     return a.weight > b.weight || (a.weight == b.weight && a.point < b.point);
   };
@@ -151,18 +155,20 @@ std::span<const SurfaceShare> SurfaceInterpolation::at(const rays::SurfacePoint&
     for (; i > 0 && before(share, shares[i - 1]); --i) shares[i] = shares[i - 1];
     shares[i] = share;
   });
-  float left = 0;
-  for (std::size_t i = 0; i < count; ++i) left += shares[i].weight;
-
-  // How high the place can rise, for the coarsest of them and the finest
-  float finest = std::numeric_limits<float>::infinity(), coarsest = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const float spacing = points_[shares[i].point].spacing;
-    finest = std::min(finest, spacing), coarsest = std::max(coarsest, spacing);
+    found.finest = std::min(found.finest, spacing), found.coarsest = std::max(found.coarsest, spacing);
   }
-  const float room = headroom(at, fitted_roof * coarsest, fitted_lift * finest, sees_);
+  return found;
+}
 
-  const Frame frame = Frame::around(n);
+template <class Counts>
+std::span<const SurfaceShare> SurfaceInterpolation::fitted(const rays::SurfacePoint& at, std::size_t count,
+                                                           SurfaceShares& shares,
+                                                           const Counts& counts) const {
+  float left = 0;
+  for (std::size_t i = 0; i < count; ++i) left += shares[i].weight;
+  const Frame frame = Frame::around(at.normal);
   Places places;
   std::size_t used = 0;
   float total = 0, unit = 0, square = 0;
@@ -170,15 +176,10 @@ std::span<const SurfaceShare> SurfaceInterpolation::at(const rays::SurfacePoint&
     const SurfaceShare share = shares[i];
     const Point& point = points_[share.point];
     left -= share.weight;
+    if (!counts(point)) continue;
     const float spacing = point.spacing;
-    const vec3 offset = point.position - x;
-    const float above_point = static_cast<float>(point.room) / 255 * fitted_roof * spacing;
-    if (glm::dot(offset, offset) > 1e-6f * spacing * spacing &&
-        !see_along_surface(at, {point.position, vec3(point.normal) / 32767.0f}, spacing,
-                           std::min(room, above_point), sees_))
-      continue;
     if (used == 0) unit = spacing;
-    const vec3 local = frame.to_local(offset) / unit;
+    const vec3 local = frame.to_local(point.position - at.position) / unit;
     shares[used] = share;
     places[used++] = vec3(1, local.x, local.y);
     total += share.weight;
@@ -190,11 +191,38 @@ std::span<const SurfaceShare> SurfaceInterpolation::at(const rays::SurfacePoint&
   return found;
 }
 
+std::span<const SurfaceShare> SurfaceInterpolation::at(const rays::SurfacePoint& at, SurfaceShares& shares,
+                                                       std::uint32_t without) const {
+  const Candidates found = candidates(at, shares, without);
+  // How high the place can rise, for the coarsest of them and the finest
+  const float low = fitted_lift * found.finest;
+  const float room = found.count > 0 ? headroom(at, fitted_roof * found.coarsest, low, sees_) : 0;
+  return fitted(at, found.count, shares, [&](const Point& point) {
+    const float spacing = point.spacing;
+    // One of a wide plain would look over the place's head: into a pot that stands on a table
+    if (spacing > much_coarser * found.finest && fitted_lift * spacing > std::max(low, room)) return false;
+    const vec3 offset = point.position - at.position;
+    if (!(glm::dot(offset, offset) > 1e-6f * spacing * spacing)) return true;
+    const float above_point = static_cast<float>(point.room) / 255 * fitted_roof * spacing;
+    return see_along_surface(at, {point.position, vec3(point.normal) / 32767.0f}, spacing,
+                             std::min(room, above_point), sees_);
+  });
+}
+
+std::span<const SurfaceShare> SurfaceInterpolation::beside(const rays::SurfacePoint& at,
+                                                           SurfaceShares& shares) const {
+  const Candidates found = candidates(at, shares, no_surface_point);
+  if (found.count == 0 || surface_cover(at, found.finest, sees_) == 0) return {};
+  return fitted(at, found.count, shares,
+                [&](const Point& point) { return point.spacing <= 2 * found.finest; });
+}
+
 bool SurfaceInterpolation::irradiance(const rays::SurfacePoint& at, std::span<const RecordLight> light,
                                       vec3& out) const {
   require(light.size() == count(), "surface records", "not every point has its light");
   SurfaceShares storage;
-  const std::span<const SurfaceShare> shares = this->at(at, storage);
+  std::span<const SurfaceShare> shares = this->at(at, storage);
+  if (shares.empty()) shares = beside(at, storage);
   if (shares.empty()) return false;
   RecordLight sum(0);
   for (const SurfaceShare& share : shares) sum += share.weight * light[share.point];

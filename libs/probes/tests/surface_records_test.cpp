@@ -136,13 +136,52 @@ TEST(SurfaceInterpolation, HasNothingForWhatMovesFacesAwayOrIsHidden) {
   const Floor floor;
   vec3 found(0);
   const SurfaceInterpolation open(floor.points, everything);
-  const SurfaceInterpolation closed(floor.points, [](const vec3&, const vec3&) { return false; });
+  // Mist: what is near is seen, and no record is.
+  const SurfaceInterpolation closed(floor.points,
+                                    [](const vec3& a, const vec3& b) { return glm::distance(a, b) < 0.6f; });
   EXPECT_FALSE(open.irradiance({{3.5f, 0, 3.5f}, {0, 1, 0}, true}, floor.light, found));
   EXPECT_FALSE(open.irradiance({{3.5f, 0, 3.5f}, {0, -1, 0}}, floor.light, found));
   EXPECT_FALSE(open.irradiance({{3.5f, 2, 3.5f}, {0, 1, 0}}, floor.light, found));
   EXPECT_FALSE(closed.irradiance({{3.5f, 0, 3.5f}, {0, 1, 0}}, floor.light, found));
   EXPECT_THROW(open.irradiance({{3.5f, 0, 3.5f}, {0, 1, 0}}, std::span(floor.light).first(3), found), Error);
   EXPECT_THROW(SurfaceInterpolation(floor.points, nullptr), Error);
+}
+
+TEST(SurfaceInterpolation, WhereNothingSeesAPlaceThatIsCoveredThoseBesideItTell) {
+  // The foot of a pot, a hair above the table: a place raised from it lies in the table's top.
+  const Floor floor;
+  const rays::SurfacePoint foot{{3.5f, 0, 3.5f}, {0, 1, 0}};
+  const SurfaceInterpolation known(floor.points, [](const vec3&, const vec3&) { return false; });
+  SurfaceShares shares;
+  EXPECT_TRUE(known.at(foot, shares).empty());
+  vec3 found(0);
+  ASSERT_TRUE(known.irradiance(foot, floor.light, found));
+  EXPECT_LT(glm::distance(found, floor.at(foot)), 1e-3f);
+}
+
+TEST(SurfaceInterpolation, NoRecordOfAPlainLooksOverAPotsRim) {
+  // A pot, hollow, 0.2 m wide and high, on a table with records around it; others stand 50 m apart.
+  const auto in_pot = [](const vec3& p) { return p.x * p.x + p.z * p.z < 0.01f && p.y >= 0 && p.y < 0.2f; };
+  const auto sees = [&](const vec3& a, const vec3& b) {
+    for (int i = 1; i <= 200; ++i) {
+      if (in_pot(glm::mix(a, b, static_cast<float>(i) / 200)) != in_pot(a)) return false;
+    }
+    return true;
+  };
+  std::vector<rays::SurfacePoint> points;
+  for (int i = 0; i < 9; ++i) {
+    if (i == 4) continue;
+    const vec3 toward(static_cast<float>(i % 3 - 1), 0, static_cast<float>(i / 3 - 1));
+    points.push_back({0.3f * toward, {0, 1, 0}});
+    points.push_back({50.0f * toward, {0, 1, 0}});
+  }
+  const SurfaceInterpolation known(points, sees), without_pot(points, everything);
+  SurfaceShares shares;
+  const rays::SurfacePoint within{{0, 1e-4f, 0}, {0, 1, 0}}, outside{{0.2f, 1e-4f, 0}, {0, 1, 0}};
+  EXPECT_TRUE(std::ranges::any_of(without_pot.at(within, shares),
+                                  [&](const SurfaceShare& s) { return known.spacing(s.point) > 10; }));
+  EXPECT_TRUE(known.at(within, shares).empty());
+  EXPECT_FALSE(known.at(outside, shares).empty());
 }
 
 /// A probe of light 1 over a floor of records.

@@ -120,6 +120,10 @@ bool TransportScene::joined(int part, const rays::RayQuery& segment) const {
   return joined;
 }
 
+float TransportScene::surface_gap() const {
+  return data_->gap;
+}
+
 std::vector<rays::PartPoint> TransportScene::sample_part(int part_index,
                                                          double points_per_square_metre) const {
   if (!(points_per_square_metre >= 0)) throw Error("points per square metre", "they must not be negative");

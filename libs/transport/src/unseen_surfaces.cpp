@@ -49,6 +49,26 @@ struct Look {
   bool mostly_backs() const { return 2 * backs >= count; }
 };
 
+/// Whether another surface lies on the point's, or within `depth` before it: the underside of a pot that
+/// stands on a table, of a road on the ground. Nobody sees it, and rays that start before it start within the
+/// table.
+bool is_covered(const rays::TransportSource& source, const rays::SurfacePoint& point, float depth) {
+  constexpr float before = 0.9f;       // of the way to the point: what is met there is no part of its surface
+  constexpr std::ptrdiff_t least = 2;  // of the rays: of surfaces in one plane either may be met
+  const Frame frame = Frame::around(point.normal);
+  std::array<rays::RayQuery, Look::count> rays;
+  std::array<rays::RayHit, Look::count> hits;
+  for (std::uint32_t i = 0; i < Look::count; ++i) {
+    const float angle = 2 * pi * static_cast<float>(i) / Look::count;
+    const vec3 away = depth * frame.to_world({0.3f * std::cos(angle), 0.3f * std::sin(angle), 1});
+    rays[i] = {point.position + away, -away, 1.01f};
+  }
+  source.intersect(0, rays, hits);
+  return std::ranges::count_if(hits, [&](const rays::RayHit& hit) {
+           return !hit.escaped() && (hit.back || hit.distance < before);
+         }) >= least;
+}
+
 /// Whether half of what the point sees is the back of surfaces; or some of it, and nothing is known to be
 /// outside: where bodies touch, one shows its front within the other.
 template <class Known>
@@ -76,8 +96,10 @@ std::vector<std::uint8_t> within_bodies(std::span<const rays::SurfacePoint> poin
   };
   const float lift = link_lift * surfels.size();
   std::vector<std::uint8_t> within(points.size());
-  parallel_for(points.size(), 256,
-               [&](std::size_t i) { within[i] = Look(source, points[i], lift).mostly_backs(); });
+  const float depth = std::max(lift, source.surface_gap());
+  parallel_for(points.size(), 256, [&](std::size_t i) {
+    within[i] = Look(source, points[i], lift).mostly_backs() || is_covered(source, points[i], depth);
+  });
   std::set<PointCell> outside;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (!within[i]) outside.insert(voxel(points[i]));
@@ -105,10 +127,11 @@ std::vector<rays::SurfacePoint> unseen_surfaces(const TransportNetwork& network,
     }
   }
   std::vector<std::uint8_t> inside(points.size());
-  const float lift = link_lift * surfels.size();
+  const float lift = link_lift * surfels.size(), depth = std::max(lift, source.surface_gap());
   const auto known = [&](const rays::SurfacePoint& point) { return taken.contains(voxel(point)); };
-  parallel_for(points.size(), 256,
-               [&](std::size_t i) { inside[i] = is_inside(source, points[i], lift, known); });
+  parallel_for(points.size(), 256, [&](std::size_t i) {
+    inside[i] = is_inside(source, points[i], lift, known) || is_covered(source, points[i], depth);
+  });
   std::vector<rays::SurfacePoint> unseen;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!inside[i] && taken.insert(voxel(points[i])).second) unseen.push_back(points[i]);

@@ -3,6 +3,7 @@
 /// and surface records are looked up by.
 
 #include <array>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -54,7 +55,11 @@ class SurfaceInterpolation {
   /// reaches. What would change the sum by less than a thousandth is left out, and the point `without`.
   std::span<const SurfaceShare> at(const rays::SurfacePoint& at, SurfaceShares& shares,
                                    std::uint32_t without = no_surface_point) const;
-  /// Whether any record lights `at`; then E of its normal, not negative. `light` is of each point.
+  /// Of a place that none of them sees and that is covered, as the foot of a pot where it touches the table,
+  /// which probes see as little: those around it. None elsewhere.
+  std::span<const SurfaceShare> beside(const rays::SurfacePoint& at, SurfaceShares& shares) const;
+  /// Whether any record lights `at`, or is beside it; then E of its normal, not negative. `light` is of each
+  /// point.
   bool irradiance(const rays::SurfacePoint& at, std::span<const RecordLight> light, vec3& out) const;
 
   float spacing(std::size_t point) const { return points_[point].spacing; }  ///< [m]
@@ -72,6 +77,17 @@ class SurfaceInterpolation {
   };
   SurfaceInterpolation(std::span<const rays::SurfacePoint> points, std::span<const float> spacings,
                        SeesProbe sees);
+
+  struct Candidates {
+    std::size_t count = 0;
+    float finest = std::numeric_limits<float>::infinity(), coarsest = 0;  ///< spacings
+  };
+  /// Those that reach a place and face its way, the weightiest first, whether it sees them or not.
+  Candidates candidates(const rays::SurfacePoint& at, SurfaceShares& shares, std::uint32_t without) const;
+  /// The fit over those of the first `count` shares whose points count.
+  template <class Counts>
+  std::span<const SurfaceShare> fitted(const rays::SurfacePoint& at, std::size_t count, SurfaceShares& shares,
+                                       const Counts& counts) const;
 
   std::vector<Point> points_;
   geometry::Balls reach_;

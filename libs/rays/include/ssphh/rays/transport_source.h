@@ -179,6 +179,9 @@ class TransportSource {
   /// Whether the part alone neither meets the segment nor has glass on it that dims light; in the part's
   /// frame. What intersect() tells; a source that knows it for less says so here.
   virtual bool joined(int part, const RayQuery& segment) const;
+  /// Height above points at which the rays of direct_light() start [m]: what stands nearer before a point
+  /// casts no shadow on it.
+  virtual float surface_gap() const { return 0; }
 
   virtual const std::vector<std::string>& light_groups() const = 0;
   /// The scene's lights posed at `time`, in the scene's order.

@@ -43,6 +43,7 @@ class TransportScene final : public rays::TransportSource {
   float duration() const override;
   mat4 part_pose(int part, float time) const override;
   std::vector<rays::PartPoint> sample_part(int part, double points_per_square_metre) const override;
+  float surface_gap() const override;
 
   void intersect(int part, std::span<const rays::RayQuery> rays, std::span<rays::RayHit> hits) const override;
   std::vector<rays::MirroredRay> mirrored(int part, std::span<const rays::RayQuery> rays,
