@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include <ssphh/core/random.h>
 #include <ssphh/core/require.h>
 #include <ssphh/study/converged_truth.h>
@@ -10,6 +13,21 @@ double noise_of(std::span<const rays::IrradianceEstimate> truth) {
   const std::vector<vec3> nothing(truth.size(),
                                   vec3(0));  // the noise is the same whatever is held against it
   return worst_channel(lookup_error(nothing, truth)).noise;
+}
+
+/// Of all points' light together, worst channel: its standard error as a share. Where next to nothing arrives
+/// but at one or two points, the mean over all would call these exact.
+double noise_of_sum(std::span<const rays::IrradianceEstimate> truth) {
+  double worst = 0;
+  for (glm::length_t c = 0; c < 3; ++c) {
+    double sum = 0, variance = 0;
+    for (const rays::IrradianceEstimate& estimate : truth) {
+      sum += double{estimate.indirect[c]};
+      variance += double{estimate.indirect_variance[c]};
+    }
+    if (sum > 0) worst = std::max(worst, std::sqrt(variance) / sum);
+  }
+  return worst;
 }
 
 /// Of two independent estimates with as many paths each, the mean.
@@ -37,7 +55,10 @@ ConvergedTruth converged_truth(const rays::RadianceSource& source, std::span<con
   };
   rays::PathParams round = path;
   round.passes = 1;
-  while (noise > 0 && more_fit() && noise_of(truth.estimates) > noise) {
+  const auto noisy = [&] {
+    return noise_of(truth.estimates) > noise || noise_of_sum(truth.estimates) > noise / 3;
+  };
+  while (noise > 0 && more_fit() && noisy()) {
     round.spp = truth.spp;
     round.seed = mix64(round.seed);
     const std::vector<rays::IrradianceEstimate> others = trace(round);

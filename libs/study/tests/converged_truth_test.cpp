@@ -14,7 +14,8 @@ namespace {
 /// Paths that bring 1, 2 and 3 W/m² of the channels on the mean, each with this relative deviation.
 class NoisySource final : public test::DarkSpace {
  public:
-  explicit NoisySource(double of_a_path, float scale = 1) : of_a_path_(of_a_path), scale_(scale) {}
+  explicit NoisySource(double of_a_path, float scale = 1, std::size_t lit = ~std::size_t{0})
+      : of_a_path_(of_a_path), scale_(scale), lit_(lit) {}
   mutable std::vector<rays::PathParams> asked;
 
   std::vector<rays::IrradianceEstimate> surface_irradiance(std::span<const rays::SurfacePoint> points,
@@ -27,7 +28,7 @@ class NoisySource final : public test::DarkSpace {
       Pcg32 random(path.seed, i);
       float normal = -6;  // of deviation 1, near enough
       for (int k = 0; k < 12; ++k) normal += random.uniform();
-      const vec3 mean = scale_ * vec3(1, 2, 3), by = static_cast<float>(deviation) * mean;
+      const vec3 mean = (i < lit_ ? scale_ : 0) * vec3(1, 2, 3), by = static_cast<float>(deviation) * mean;
       estimates.push_back({2.0f * mean, mean + normal * by, by * by, by * vec3(by.y, by.z, by.x)});
     }
     return estimates;
@@ -36,6 +37,7 @@ class NoisySource final : public test::DarkSpace {
  private:
   double of_a_path_;
   float scale_;
+  std::size_t lit_;  ///< points, the first ones; nothing arrives at the others
 };
 
 std::vector<rays::SurfacePoint> points(std::size_t count) {
@@ -77,6 +79,14 @@ TEST(ConvergedTruth, IsTheMeanOfAllPathsWithTheVarianceOfIt) {
   }
   // χ² of 400: within 4.5 of its deviations, a false alarm in 10⁵.
   EXPECT_NEAR(square, 400, 4.5 * std::sqrt(800.0));
+}
+
+TEST(ConvergedTruth, OfOnePointAmongDarkOnesIsAsExactAsThatPointAsks) {
+  // 3.2 / √n ≤ 0.05 / 3: 36,864 paths. Its mean with 399 that are dark is under 0.05 from the first.
+  EXPECT_EQ(converged_truth(NoisySource(3.2, 1, 1), points(400), {7, 1, 16, 5}, 0.05).spp, 1 << 15)
+      << "16.8 million in all";
+  EXPECT_EQ(converged_truth(NoisySource(1.6, 1, 1), points(400), {7, 1, 16, 5}, 0.05).spp, 1 << 14)
+      << "9216 or a few less";
 }
 
 TEST(ConvergedTruth, StopsAtItsLimitsAndWhereNoNoiseIsAskedFor) {
