@@ -36,7 +36,7 @@ TransportParams checked(const rays::TransportSource& source, std::span<const vec
     const float apart =
         positions.size() > 1 ? probes::median_spacing({positions.begin(), positions.end()}) : 0;
     const float dense = positions.size() > 1 ? std::min(0.5f, apart / 4) : 0.5f;
-    const float most = std::max({dense, apart / 16, max_component(bounds.max - bounds.min) / 30000});
+    const float most = std::max({dense, apart / 8 - 0.5f, max_component(bounds.max - bounds.min) / 30000});
     params.surfel_size = std::min(bounds.radius() / params.surfels_per_radius, most);
   }
   return params;

@@ -16,8 +16,8 @@ using Irradiance4 = vec4;
 struct TransportParams {
   int directions = 384;  ///< rays per probe
   /// Edge of a surfel [m]; 0: the scene's radius over `surfels_per_radius`, but at most the largest of these:
-  /// a quarter of the probes' median distance or 0.5 m, whichever is less; a sixteenth of that distance; a
-  /// 30,000th of the scene's length.
+  /// a quarter of the probes' median distance or 0.5 m, whichever is less; an eighth of that distance less
+  /// 0.5 m, where nothing is of a person's size; a 30,000th of the scene's length.
   float surfel_size = 0;
   int link_rays = 128;  ///< cosine rays per surfel
   int samples = 8;      ///< points per surfel at which direct light is found, 1..32
