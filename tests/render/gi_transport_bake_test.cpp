@@ -314,18 +314,25 @@ TEST(GiTransportBake, SurfelsAreAThirtySecondOfTheRadiusAndAtMostHalfAMetre) {
   EXPECT_EQ(size_of(9.5f), 0.5f);
   EXPECT_EQ(size_of(1000), 0.5f) << "one probe";
   // A session's own are a twentieth.
-  const auto session_size = [](float scale) {
+  const auto session_size = [](float scale, float apart = 0) {
     scene::Scene room = test::coloured_room(vec3(1));
     for (scene::Mesh& mesh : room.meshes)
       for (vec3& p : mesh.positions) p *= scale;
     const trace::TransportScene source(room);
     transport::TransportParams params;
     params.directions = 16, params.link_rays = 4, params.samples = 1;
-    return transport::TransportNetwork(source, std::vector<vec3>{vec3(0)}, params).params().surfel_size;
+    std::vector<vec3> places{vec3(0)};
+    if (apart > 0) places.emplace_back(apart, 0, 0);
+    return transport::TransportNetwork(source, places, params).params().surfel_size;
   };
   EXPECT_FLOAT_EQ(session_size(0.01f), 0.01f * std::sqrt(3.0f) / 20);
   EXPECT_FLOAT_EQ(session_size(1), std::sqrt(3.0f) / 20);
   EXPECT_EQ(session_size(6), 0.5f);
+  // As the probes stand dense: a quarter of their distance up to half a metre, then an eighth less that.
+  EXPECT_EQ(session_size(1000, 1), 0.25f);
+  EXPECT_EQ(session_size(1000, 7), 0.5f);
+  EXPECT_EQ(session_size(1000, 40), 4.5f);
+  EXPECT_FLOAT_EQ(session_size(1000, 900), 1000 * std::sqrt(3.0f) / 20) << "a twentieth is less";
 }
 
 TEST(GiTransportBake, TheNumberOfThreadsChangesNoBit) {

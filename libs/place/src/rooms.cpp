@@ -16,7 +16,7 @@ constexpr int inside_places = 256;
 constexpr float walled_share = 0.8f, room_share = 0.03f;  ///< of a place's rays; of a box's places
 constexpr int flood_places = 4096;
 constexpr std::size_t least_places = 16;  ///< of a room that counts
-constexpr float flood_reach = 6;       ///< between neighbours, in mean distances of the places
+constexpr float flood_reach = 6;          ///< between neighbours, in mean distances of the places
 
 /// Groups of places that see each other from neighbour to neighbour, at most `reach` apart.
 std::vector<std::vector<vec3>> groups_of(const rays::TransportSource& source, const std::vector<vec3>& places,

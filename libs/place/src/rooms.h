@@ -25,8 +25,8 @@ std::vector<vec3> places_in(const scene::Bounds& box, int count, const Wanted& w
 /// Whether a good share of the places in a box is walled in by what is in the box: rooms, not a body.
 bool has_rooms(const rays::TransportSource& source, const scene::Bounds& box);
 
-/// Boxes around the places in `bounds` that are walled in, one for those that see each other from neighbour to
-/// neighbour: of 4096 places, rooms that hold 16 or more of them.
+/// Boxes around the places in `bounds` that are walled in, one for those that see each other from neighbour
+/// to neighbour: of 4096 places, rooms that hold 16 or more of them.
 std::vector<scene::Bounds> room_boxes(const rays::TransportSource& source, const scene::Bounds& bounds,
                                       const Control& control);
 
