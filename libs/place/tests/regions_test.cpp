@@ -167,7 +167,9 @@ TEST(Regions, ATunnelIsOneWhateverItsUnit) {
     EXPECT_TRUE(regions.open_rest);
     EXPECT_TRUE(holds(regions.boxes[0], unit * vec3(-3, 0.5f, 20), unit * vec3(3, 3.5f, 850))) << unit;
     EXPECT_LT(regions.boxes[0].max.x, 8 * unit);
-    const std::vector<PlacedProbe> probes = place_probes(source, {}).probes;
+    PlaceParams params;
+    params.spacing = 14 * unit;
+    const std::vector<PlacedProbe> probes = place_probes(source, params).probes;
     const auto within = std::ranges::count_if(probes, [&](const PlacedProbe& probe) {
       return std::abs(probe.position.x) < 3 * unit && probe.position.y < 4 * unit;
     });
