@@ -6,8 +6,6 @@
 #include <map>
 #include <set>
 
-#include <ssphh/core/sphere.h>
-
 #include "draft.h"
 #include "rooms.h"
 

@@ -133,6 +133,8 @@ void IrradianceLookup::swap_light(const ProbeSet& set) {
 
 vec3 IrradianceLookup::irradiance(const rays::SurfacePoint& at) const {
   if (const std::optional<vec3> found = recorded_irradiance(at)) return *found;
+  vec3 beside;
+  if (data_->places && data_->places->irradiance_beside(at, data_->light, beside)) return beside;
   return irradiance(at, data_->weights->at(at));
 }
 

@@ -16,7 +16,7 @@ namespace {
 /// What a lookup leaves out, of its whole weight.
 constexpr float left_out = 0.001f;
 /// Spacings between which sight of the one's height tells nothing of the other's.
-constexpr float much_coarser = 8;
+constexpr float much_coarser = 64;
 
 /// 1 and the tangential offset, of each share.
 using Places = std::array<vec3, most_surface_points>;
@@ -217,17 +217,31 @@ std::span<const SurfaceShare> SurfaceInterpolation::beside(const rays::SurfacePo
                 [&](const Point& point) { return point.spacing <= 2 * found.finest; });
 }
 
+namespace {
+
+bool sum_of(std::span<const SurfaceShare> shares, std::span<const RecordLight> light, const vec3& normal,
+            vec3& out) {
+  if (shares.empty()) return false;
+  RecordLight sum(0);
+  for (const SurfaceShare& share : shares) sum += share.weight * light[share.point];
+  out = glm::max(sum * vec4(normal, 1), vec3(0));
+  return true;
+}
+
+}  // namespace
+
 bool SurfaceInterpolation::irradiance(const rays::SurfacePoint& at, std::span<const RecordLight> light,
                                       vec3& out) const {
   require(light.size() == count(), "surface records", "not every point has its light");
   SurfaceShares storage;
-  std::span<const SurfaceShare> shares = this->at(at, storage);
-  if (shares.empty()) shares = beside(at, storage);
-  if (shares.empty()) return false;
-  RecordLight sum(0);
-  for (const SurfaceShare& share : shares) sum += share.weight * light[share.point];
-  out = glm::max(sum * vec4(at.normal, 1), vec3(0));
-  return true;
+  return sum_of(this->at(at, storage), light, at.normal, out);
+}
+
+bool SurfaceInterpolation::irradiance_beside(const rays::SurfacePoint& at, std::span<const RecordLight> light,
+                                             vec3& out) const {
+  require(light.size() == count(), "surface records", "not every point has its light");
+  SurfaceShares storage;
+  return sum_of(beside(at, storage), light, at.normal, out);
 }
 
 std::size_t SurfaceInterpolation::bytes() const {

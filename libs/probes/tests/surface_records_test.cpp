@@ -136,13 +136,16 @@ TEST(SurfaceInterpolation, HasNothingForWhatMovesFacesAwayOrIsHidden) {
   const Floor floor;
   vec3 found(0);
   const SurfaceInterpolation open(floor.points, everything);
+  const SurfaceInterpolation closed(floor.points, [](const vec3&, const vec3&) { return false; });
   // Mist: what is near is seen, and no record is.
-  const SurfaceInterpolation closed(floor.points,
-                                    [](const vec3& a, const vec3& b) { return glm::distance(a, b) < 0.6f; });
+  const SurfaceInterpolation misty(floor.points,
+                                   [](const vec3& a, const vec3& b) { return glm::distance(a, b) < 0.6f; });
   EXPECT_FALSE(open.irradiance({{3.5f, 0, 3.5f}, {0, 1, 0}, true}, floor.light, found));
   EXPECT_FALSE(open.irradiance({{3.5f, 0, 3.5f}, {0, -1, 0}}, floor.light, found));
   EXPECT_FALSE(open.irradiance({{3.5f, 2, 3.5f}, {0, 1, 0}}, floor.light, found));
   EXPECT_FALSE(closed.irradiance({{3.5f, 0, 3.5f}, {0, 1, 0}}, floor.light, found));
+  EXPECT_FALSE(misty.irradiance_beside({{3.5f, 0, 3.5f}, {0, 1, 0}}, floor.light, found));
+  EXPECT_FALSE(closed.irradiance_beside({{3.5f, 0, 3.5f}, {0, 1, 0}, true}, floor.light, found));
   EXPECT_THROW(open.irradiance({{3.5f, 0, 3.5f}, {0, 1, 0}}, std::span(floor.light).first(3), found), Error);
   EXPECT_THROW(SurfaceInterpolation(floor.points, nullptr), Error);
 }
@@ -155,7 +158,7 @@ TEST(SurfaceInterpolation, WhereNothingSeesAPlaceThatIsCoveredThoseBesideItTell)
   SurfaceShares shares;
   EXPECT_TRUE(known.at(foot, shares).empty());
   vec3 found(0);
-  ASSERT_TRUE(known.irradiance(foot, floor.light, found));
+  ASSERT_TRUE(known.irradiance_beside(foot, floor.light, found));
   EXPECT_LT(glm::distance(found, floor.at(foot)), 1e-3f);
 }
 

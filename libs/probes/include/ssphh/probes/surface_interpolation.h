@@ -55,12 +55,11 @@ class SurfaceInterpolation {
   /// reaches. What would change the sum by less than a thousandth is left out, and the point `without`.
   std::span<const SurfaceShare> at(const rays::SurfacePoint& at, SurfaceShares& shares,
                                    std::uint32_t without = no_surface_point) const;
-  /// Of a place that none of them sees and that is covered, as the foot of a pot where it touches the table,
-  /// which probes see as little: those around it. None elsewhere.
-  std::span<const SurfaceShare> beside(const rays::SurfacePoint& at, SurfaceShares& shares) const;
-  /// Whether any record lights `at`, or is beside it; then E of its normal, not negative. `light` is of each
-  /// point.
+  /// Whether any record lights `at`; then E of its normal, not negative. `light` is of each point.
   bool irradiance(const rays::SurfacePoint& at, std::span<const RecordLight> light, vec3& out) const;
+  /// The same of a place that none of them sees and that is covered, as the foot of a pot where it touches
+  /// the table, which probes see as little: by those around it. false elsewhere.
+  bool irradiance_beside(const rays::SurfacePoint& at, std::span<const RecordLight> light, vec3& out) const;
 
   float spacing(std::size_t point) const { return points_[point].spacing; }  ///< [m]
   const vec3& position(std::size_t point) const { return points_[point].position; }
@@ -88,6 +87,9 @@ class SurfaceInterpolation {
   template <class Counts>
   std::span<const SurfaceShare> fitted(const rays::SurfacePoint& at, std::size_t count, SurfaceShares& shares,
                                        const Counts& counts) const;
+
+  /// Of a covered place, those around it, whether it sees them or not; none elsewhere.
+  std::span<const SurfaceShare> beside(const rays::SurfacePoint& at, SurfaceShares& shares) const;
 
   std::vector<Point> points_;
   geometry::Balls reach_;
