@@ -69,7 +69,8 @@ struct ListedShares {
                      static_cast<std::size_t>((cell.z * grid->cells.y + cell.y) * grid->cells.x + cell.x)];
     const Frame frame = Frame::around(at.normal);
     std::vector<dvec3> places;
-    double total = 0, square = 0;
+    std::vector<std::pair<double, double>> near;  // of each its squared distance and its spacing
+    double counted = 0, per_spacing = 0;
     for (unsigned i = 0; i < range.y; ++i) {
       const uvec4 e = lists.lists[range.x + i];
       const std::size_t point = e.x & 0x7ffffu;
@@ -89,9 +90,17 @@ struct ListedShares {
           std::pow(t, 8) / spacing * facing * level * level / (cover == 0 ? 1 : 1 + quotient * quotient);
       shares.emplace_back(point, weight);
       places.push_back({1, glm::dot(offset, dvec3(frame.x)), glm::dot(offset, dvec3(frame.y))});
-      total += weight, square += weight * spacing * spacing;
+      near.emplace_back(d2, spacing);
+      counted += weight, per_spacing += weight / spacing;
     }
     if (shares.empty()) return;
+    double total = 0, square = 0;
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+      const auto& [d2, spacing] = near[i];
+      const double weight = shares[i].second /=
+          1 + std::pow(d2 / std::pow(2.5 * counted / per_spacing, 2), 2);
+      total += weight, square += weight * spacing * spacing;
+    }
     glm::dmat3 m(0);
     for (std::size_t i = 0; i < shares.size(); ++i)
       for (glm::length_t c = 0; c < 3; ++c) m[c] += shares[i].second / total * places[i][c] * places[i];

@@ -171,22 +171,31 @@ std::span<const SurfaceShare> SurfaceInterpolation::fitted(const rays::SurfacePo
   const Frame frame = Frame::around(at.normal);
   Places places;
   std::size_t used = 0;
-  float total = 0, unit = 0, square = 0;
+  float total = 0, per_spacing = 0, unit = 0;
   for (std::size_t i = 0; i < count && left > left_out * total; ++i) {
     const SurfaceShare share = shares[i];
     const Point& point = points_[share.point];
     left -= share.weight;
     if (!counts(point)) continue;
-    const float spacing = point.spacing;
-    if (used == 0) unit = spacing;
+    if (used == 0) unit = point.spacing;
     const vec3 local = frame.to_local(point.position - at.position) / unit;
     shares[used] = share;
     places[used++] = vec3(1, local.x, local.y);
     total += share.weight;
-    square += share.weight * spacing * spacing;
+    per_spacing += share.weight / point.spacing;
   }
   if (!(total > 0)) return {};
   const std::span<SurfaceShare> found(shares.data(), used);
+  const float mean = total / per_spacing;
+  float square = 0;
+  total = 0;
+  for (SurfaceShare& share : found) {
+    const Point& point = points_[share.point];
+    const vec3 offset = point.position - at.position;
+    share.weight *= share_beside_finer(glm::dot(offset, offset), mean);
+    total += share.weight;
+    square += share.weight * point.spacing * point.spacing;
+  }
   fit_linearly(found, places, total, fitted_ridge * square / (total * unit * unit));
   return found;
 }

@@ -33,4 +33,11 @@ inline float cover_factor(int cover, float distance2, float spacing) {
   return cover == 0 ? 1 : 1 / (1 + q * q);
 }
 
+/// What it keeps where those that count stand nearer to each other, `mean` metres: a far one of a plain, with
+/// its long lever, would tilt the fit of a room.
+inline float share_beside_finer(float distance2, float mean) {
+  const float q = distance2 / (fitted_coarser * fitted_coarser * mean * mean);
+  return 1 / (1 + q * q);
+}
+
 }  // namespace ssphh::probes

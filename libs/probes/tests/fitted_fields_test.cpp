@@ -30,9 +30,9 @@ FittedPoints scattered() {
 }
 
 /// Of the point at x: a linear fit to those within three of their spacings, whose weights fall as
-/// (1 − q²/9)⁸ over the spacing, less the least that come to a thousandth of the rest, with a ridge of 5 % of
-/// a squared spacing on its slopes; so much of it that no more than a quarter of the weight is negative. In
-/// doubles.
+/// (1 − q²/9)⁸ over the spacing, less the least that come to a thousandth of the rest, and as 1/(1 + (d/2.5
+/// s)⁴) with the distance in their mean spacing s, harmonic and weighted; with a ridge of 5 % of a squared
+/// spacing on its slopes; so much of it that no more than a quarter of the weight is negative. In doubles.
 std::vector<double> shares_at(const FittedPoints& fitted, const vec3& x, std::span<const float> spacings) {
   struct Near {
     double weight, spacing;
@@ -47,13 +47,19 @@ std::vector<double> shares_at(const FittedPoints& fitted, const vec3& x, std::sp
     if (q < 3) left += near.back().weight;
   }
   std::ranges::sort(near, std::greater(), &Near::weight);
+  double counted = 0, per_spacing = 0;
+  std::size_t used = 0;
+  for (; used < near.size() && left > 0.001 * counted; ++used) {
+    left -= near[used].weight;
+    counted += near[used].weight, per_spacing += near[used].weight / near[used].spacing;
+  }
+  near.resize(used);
   glm::dmat3 gram(0);
   double total = 0, ridge = 0;
   std::vector<std::pair<double, glm::dvec3>> rows;
-  for (const Near& n : near) {
-    if (left <= 0.001 * total) break;
-    left -= n.weight;
+  for (Near& n : near) {
     const glm::dvec3 d = glm::dvec3(fitted.points[n.point].position) - glm::dvec3(x), row(1, d.x, d.z);
+    n.weight /= 1 + std::pow(glm::length(d) * per_spacing / (2.5 * counted), 4);
     gram += n.weight * glm::outerProduct(row, row);
     total += n.weight;
     ridge += 0.05 * n.weight * n.spacing * n.spacing;

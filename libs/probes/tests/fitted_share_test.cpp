@@ -51,6 +51,12 @@ class Around {
     const double q = double(glm::length(fitted_.points[point].position)) / spacing(point);
     return q < 3 ? std::pow(1 - q * q / 9, 8) / spacing(point) : 0;
   }
+  /// What it keeps of that where it and another count so much: 1 / (1 + (d / 2.5 s)⁴), s their mean spacing.
+  double beside(std::size_t point, std::size_t other) const {
+    const double one = by_distance(point), two = by_distance(other);
+    const double mean = (one + two) / (one / spacing(point) + two / spacing(other));
+    return one / (1 + std::pow(double(glm::length(fitted_.points[point].position)) / (2.5 * mean), 4));
+  }
   vec3 place(std::size_t point) const { return frame_.to_local(fitted_.points[point].position); }
 
  private:
@@ -63,7 +69,7 @@ TEST(FittedShare, FallsWithDistanceToThreeOfThePointsSpacings) {
     Around points;
     points.add_ring(0.6f, 0, 0);
     points.add_ring(far, 45, 1);
-    const double one = points.by_distance(0), other = points.by_distance(4);
+    const double one = points.beside(0, 4), other = points.beside(4, 0);
     ASSERT_GT(other, 0.02 * one);
     // Lifted by the rounding of normals to 16 bits
     EXPECT_NEAR(double(points.share()), other / (one + other), 1e-4) << far;
@@ -138,7 +144,7 @@ TEST(FittedShare, IsThatOfALinearFitWhateverWayThePointsLie) {
     const double a = 1.0, b = -0.5;
     points.add(float(a) * along, 0);
     points.add(float(b) * along, 1);
-    const double wa = points.by_distance(0), wb = points.by_distance(1), s = points.spacing(0);
+    const double wa = points.beside(0, 1), wb = points.beside(1, 0), s = points.spacing(0);
     ASSERT_GT(wa, 0.05 * wb);
     const double sum = wa + wb, moment = wa * a + wb * b;
     const double second = wa * a * a + wb * b * b + 0.05 * sum * s * s;
@@ -155,7 +161,7 @@ TEST(FittedShare, ThatIsNegativeIsAQuarterOfAllAtMost) {
     const double a = 0.5, b = 1.2;
     points.add(float(a) * along, 0);
     points.add(float(b) * along, 1);
-    const double wa = points.by_distance(0), wb = points.by_distance(1), s = points.spacing(0);
+    const double wa = points.beside(0, 1), wb = points.beside(1, 0), s = points.spacing(0);
     ASSERT_GT(wb, 0.02 * wa);
     const double sum = wa + wb, moment = wa * a + wb * b;
     const double ridge = 0.05 * (wa * s * s + wb * std::pow(points.spacing(1), 2));

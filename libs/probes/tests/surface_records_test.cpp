@@ -5,8 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <ssphh/core/random.h>
 #include <ssphh/probes/hier.h>
 #include <ssphh/probes/lookup.h>
+#include <ssphh/probes/surface_spacing.h>
 
 #include "error_message.h"
 #include "fake_source.h"
@@ -115,6 +117,26 @@ TEST(SurfaceInterpolation, ALoneRecordAtTheBorderOfItsReachGivesItsLight) {
     ASSERT_LT(glm::distance(found, vec3(1, 2, 3)), 0.05f) << x;
   }
   EXPECT_GT(lit, 1000);
+}
+
+TEST(SurfaceInterpolation, AFarRecordOfAPlainDoesNotTiltTheFitOfARoom) {
+  // It counts for a hundredth, but its lever is twenty times as long as those of the records around.
+  Pcg32 random(5);
+  std::vector<rays::SurfacePoint> points;
+  std::vector<RecordLight> light;
+  for (int i = 0; i < 25; ++i) {
+    const vec2 at = vec2(i % 5 - 2, i / 5 - 2) + 0.5f * (random.uniform2() - 0.5f);
+    points.push_back({{at.x, 0, at.y}, {0, 1, 0}});
+    light.push_back(light_of(vec3(2, 3, 4) + at.x * vec3(0.3f, 0, -0.2f)));
+  }
+  const rays::SurfacePoint at{vec3(0), {0, 1, 0}};
+  vec3 room, with_plain;
+  ASSERT_TRUE(SurfaceInterpolation(points, everything).irradiance(at, light, room));
+  points.push_back({{30, 0, 0}, {0, 1, 0}});
+  light.push_back(light_of(vec3(200, 100, 0)));
+  ASSERT_GT(surface_spacings(points).back(), 20) << "it reaches far";
+  ASSERT_TRUE(SurfaceInterpolation(points, everything).irradiance(at, light, with_plain));
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(with_plain[c] / room[c], 1, 0.02f) << c;
 }
 
 TEST(SurfaceInterpolation, TurnsWithTheSurface) {

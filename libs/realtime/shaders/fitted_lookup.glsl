@@ -45,6 +45,13 @@ float fitted_weight(uvec4 entry, uvec4 place, Surface s) {
   return t * t / spacing * facing * level * level * (cover == 0 ? 1 : 1 / (1 + q * q));
 }
 
+// probes::share_beside_finer.
+float fitted_share_beside_finer(uvec4 place, Surface s, float mean) {
+  vec3 offset = fitted_offset(place, s);
+  float q = dot(offset, offset) / (FITTED_COARSER * FITTED_COARSER * mean * mean);
+  return 1 / (1 + q * q);
+}
+
 // Dot product of the ten halves of one colour with `y`.
 float ten_halves(uint a, uint b, uint c, uint d, uint e, vec2 y[5]) {
   return dot(unpackHalf2x16(a), y[0]) + dot(unpackHalf2x16(b), y[1]) + dot(unpackHalf2x16(c), y[2]) +
@@ -131,15 +138,25 @@ bool fitted_irradiance(Surface s, out vec3 irradiance) {
   vec2 y[5];
   fitted_harmonics(s.normal, y);
   mat3 basis = basis_around(s.normal);
-  mat3 gram = mat3(0), light = mat3(0);
-  float square = 0, unit = fitted_origin.w;
   uvec3 left = list.seen, serve = uvec3(0);
+  float counted = 0, per_spacing = 0;
   while ((left.x | left.y | left.z) != 0) {
     int i = fitted_next(left);
     uvec4 entry = fitted_entry(list.first + i), place = texelFetch(fitted_points, fitted_place(fitted_index(entry)), 0);
     float weight = fitted_weight(entry, place, s);
     uint bit = weight > 0 ? 1u << (i & 31) : 0u;
     serve |= i < 32 ? uvec3(bit, 0, 0) : i < 64 ? uvec3(0, bit, 0) : uvec3(0, 0, bit);
+    counted += weight;
+    per_spacing += weight / uintBitsToFloat(entry.w);
+  }
+  float mean = per_spacing > 0 ? counted / per_spacing : 1;
+  mat3 gram = mat3(0), light = mat3(0);
+  float square = 0, unit = fitted_origin.w;
+  left = serve;
+  while ((left.x | left.y | left.z) != 0) {
+    uvec4 entry = fitted_entry(list.first + fitted_next(left)),
+          place = texelFetch(fitted_points, fitted_place(fitted_index(entry)), 0);
+    float weight = fitted_weight(entry, place, s) * fitted_share_beside_finer(place, s, mean);
     vec3 at = vec3(1, (fitted_offset(place, s) * basis).xy / unit);
     gram += weight * outerProduct(at, at);
     light += outerProduct(weight * fitted_irradiance_of(fitted_index(entry), y), at);
@@ -159,7 +176,7 @@ bool fitted_irradiance(Surface s, out vec3 irradiance) {
     uvec4 entry = fitted_entry(list.first + fitted_next(left)),
           place = texelFetch(fitted_points, fitted_place(fitted_index(entry)), 0);
     float relative = dot(row, vec3(1, (fitted_offset(place, s) * basis).xy / unit));
-    negative += fitted_weight(entry, place, s) * max(-relative, 0.0);
+    negative += fitted_weight(entry, place, s) * fitted_share_beside_finer(place, s, mean) * max(-relative, 0.0);
   }
   float most = min(1.0, FITTED_NEGATIVE * total / max(negative, 1e-20));
   vec3 share = mix(vec3(1, 0, 0), row, most);

@@ -52,6 +52,13 @@ float ssphh_point_weight(uint entry, vec3 n, vec3 x, ivec4 parts, int mask, out 
   return t / spacing * facing * level * level * (cover == 0u ? 1.0 : 1.0 / (1.0 + q * q));
 }
 
+// What a point keeps of its weight where those that count stand nearer to each other, spacing: a far one of a plain, with its long
+// lever, would tilt the fit of a room
+float ssphh_beside_finer(vec3 offset, float spacing) {
+  float q = dot(offset, offset) / (6.25 * spacing * spacing);
+  return 1.0 / (1.0 + q * q);
+}
+
 // Irradiance that a point's light gives for a normal
 vec3 ssphh_of_point(int point_index, vec3 n) {
   vec4 a = ssphh_point_light(point_index, 0), b = ssphh_point_light(point_index, 1), c = ssphh_point_light(point_index, 2);
@@ -74,12 +81,26 @@ bool ssphh_by_points(vec3 x, vec3 n, vec3 shading, out vec3 irradiance) {
   float side = n.z < 0.0 ? -1.0 : 1.0, a = -1.0 / (side + n.z), b = n.x * n.y * a, unit = 1.0 / SSPHH_NEAR_GRID.w;
   vec3 along = vec3(1.0 + side * n.x * n.x * a, side * b, -side * n.x), across = vec3(b, side + n.y * n.y * a, -n.y);
 
+  int mask = first_mask;
+  float counted = 0.0, per_spacing = 0.0;
+  for (int k = first; k < end; ++k) {
+    uint entry = ssphh_word(SSPHH_ENTRIES, k);
+    vec3 offset;
+    float spacing;
+    float w = ssphh_point_weight(entry, n, x, parts, mask, offset, spacing);
+    if (ssphh_has_mask(entry)) ++mask;
+    counted += w;
+    per_spacing += w / spacing;
+  }
+  if (!(counted > 0.0)) return false;
+  float usual = counted / per_spacing;
+
   // Weighted sums over the points: 1, place in the tangent plane, its products, spacing, light, light times place. Places are
   // from the first point, where rounding has the least to cancel.
   float total = 0.0, ridge = 0.0;
   vec2 origin = vec2(0.0, 0.0), mean = origin;
   vec3 products = irradiance, light = irradiance, light_along = irradiance, light_across = irradiance;
-  int mask = first_mask;
+  mask = first_mask;
   for (int i = first; i < end; ++i) {
     uint entry = ssphh_word(SSPHH_ENTRIES, i);
     vec3 offset;
@@ -87,6 +108,7 @@ bool ssphh_by_points(vec3 x, vec3 n, vec3 shading, out vec3 irradiance) {
     float w = ssphh_point_weight(entry, n, x, parts, mask, offset, spacing);
     if (ssphh_has_mask(entry)) ++mask;
     if (!(w > 0.0)) continue;
+    w *= ssphh_beside_finer(offset, usual);
     vec2 at = vec2(dot(offset, along), dot(offset, across)) * unit;
     if (total == 0.0) origin = at;
     at -= origin;
@@ -100,7 +122,6 @@ bool ssphh_by_points(vec3 x, vec3 n, vec3 shading, out vec3 irradiance) {
     light_along += at.x * e;
     light_across += at.y * e;
   }
-  if (!(total > 0.0)) return false;
 
   // Each weight counts 1 - slope . (its place - mean) times
   mean /= total;
@@ -117,6 +138,7 @@ bool ssphh_by_points(vec3 x, vec3 n, vec3 shading, out vec3 irradiance) {
     float spacing;
     float w = ssphh_point_weight(entry, n, x, parts, mask, offset, spacing);
     if (ssphh_has_mask(entry)) ++mask;
+    w *= ssphh_beside_finer(offset, usual);
     negative += w * max(dot(slope, vec2(dot(offset, along), dot(offset, across)) * unit - from_here) - 1.0, 0.0);
   }
   float allowed = 0.25 * total;

@@ -8,11 +8,12 @@
 
 // Those of probes/lookup_constants.h
 static const float reach = 3, least_cosine = 0.7f, off_plane = 0.5f, off_plane_slope = 0.1f, ridge = 0.05f,
-                   most_negative = 0.25f;
+                   most_negative = 0.25f, coarser = 2.5f;
 
 typedef struct {
   uint32_t point;
-  float weight, x, y;  // place in the tangent plane, in sides of a cell
+  float weight, x, y;        // place in the tangent plane, in sides of a cell
+  float distance2, spacing;  // metres
 } share;
 
 typedef struct {
@@ -85,7 +86,7 @@ static uint32_t find_shares(const ssphh_runtime* rt, const float x[3], const flo
   float tx[3], ty[3];
   tangents(n, tx, ty);
   uint32_t count = 0;
-  double total = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0, square = 0;
+  double total = 0, per_spacing = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0, square = 0;
   for (uint32_t i = found.cell[0].entry; i < found.cell[1].entry; ++i) {
     const uint32_t entry = rt->entries[i];
     const ssphh_cooked_point* p = &rt->points[entry & SSPHH_COOKED_POINT];
@@ -99,13 +100,25 @@ static uint32_t find_shares(const ssphh_runtime* rt, const float x[3], const flo
     s->weight = w;
     s->x = ssphh_runtime_dot(offset, tx) * unit;
     s->y = ssphh_runtime_dot(offset, ty) * unit;
-    const double dw = (double)w, dx = (double)s->x, dy = (double)s->y;
-    const double spacing = (double)(p->spacing * unit);
+    s->distance2 = ssphh_runtime_dot(offset, offset);
+    s->spacing = p->spacing;
+    total += (double)w;
+    per_spacing += (double)(w / p->spacing);
+  }
+  if (!(total > 0)) return 0;
+  // A far point of a plain, with its long lever, would tilt the fit of a room
+  const float mean = (float)(total / per_spacing);
+  total = 0;
+  for (uint32_t i = 0; i < count; ++i) {
+    share* s = &shares[i];
+    const float q = s->distance2 / (coarser * coarser * mean * mean);
+    s->weight /= 1 + q * q;
+    const double dw = (double)s->weight, dx = (double)s->x, dy = (double)s->y;
+    const double spacing = (double)(s->spacing * unit);
     total += dw, sx += dw * dx, sy += dw * dy;
     sxx += dw * dx * dx, sxy += dw * dx * dy, syy += dw * dy * dy;
     square += dw * spacing * spacing;
   }
-  if (!(total > 0)) return 0;
   // First row of the inverse of [1 x y; x xx xy; y xy yy], to a factor
   const double mx = sx / total, my = sy / total, r = (double)ridge * square / total;
   const double xx = sxx / total + r, xy = sxy / total, yy = syy / total + r;

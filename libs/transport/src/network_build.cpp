@@ -92,18 +92,18 @@ class NetworkBuilder {
     d_.surfels = SurfelSet(d_.source, std::move(sizes), std::move(part_levels));
   }
 
-  /// On the scene's own lamps as they are first, for surfels follow none that move; on those that are smaller
-  /// than a surfel, beside which light falls off within one.
+  /// On the scene's own lamps as they are first, for surfels follow none that move; on those that are small,
+  /// beside which light falls off within a surfel: far from probes they are wider.
   std::vector<vec3> lamp_places() const {
     constexpr int per_group = 256;
+    const float widest = 4 * d_.surfels.size();
     std::vector<mat4> poses;
     for (int part = 0; part < d_.source.part_count(); ++part) poses.push_back(d_.source.part_pose(part, 0));
     const auto light = d_.source.direct_light(d_.source.lights(0), poses);
     std::vector<vec3> places;
     if (!light) return places;
     for (std::size_t group = 0; group < d_.source.light_groups().size(); ++group) {
-      const std::vector<vec3> of_group =
-          light->emitter_places(static_cast<int>(group), d_.surfels.size(), per_group);
+      const std::vector<vec3> of_group = light->emitter_places(static_cast<int>(group), widest, per_group);
       places.insert(places.end(), of_group.begin(), of_group.end());
     }
     return places;

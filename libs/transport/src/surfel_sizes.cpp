@@ -23,23 +23,11 @@ struct SurfelSizes::Places {
   std::vector<float> apart;  ///< from the nearest other probe; 0: there is none
 };
 
-SurfelSizes::SurfelSizes(float size, std::span<const vec3> lamps)
-    : finest_(size), usual_(size), most_(0), share_(0.5f) {
-  if (lamps.empty()) return;
-  constexpr int halvings = 2;
-  finest_ = size / static_cast<float>(1 << halvings);
-  most_ = halvings;
-  places_ = std::make_shared<Places>(std::span<const vec3>(), lamps);
-}
-
-SurfelSizes::SurfelSizes(float finest, std::span<const vec3> probes, float share, std::span<const vec3> lamps)
-    : finest_(finest),
-      usual_(finest),
-      most_(most_level),
-      share_(share),
-      places_(std::make_shared<Places>(probes, lamps)) {}
-
 namespace {
+
+/// Of the usual size, near lamps.
+constexpr int halvings = 2, halvings_of_many = 1;
+constexpr float share_of_lamp = 0.5f;  // of its distance
 
 int doublings(float size, float finest, int most) {
   if (!(size > finest)) return 0;
@@ -49,27 +37,43 @@ int doublings(float size, float finest, int most) {
 
 }  // namespace
 
+SurfelSizes::SurfelSizes(float size, std::span<const vec3> lamps)
+    : usual_level_(lamps.empty() ? 0 : halvings), usual_(size), lamp_share_(share_of_lamp) {
+  if (!lamps.empty()) places_ = std::make_shared<Places>(std::span<const vec3>(), lamps);
+}
+
+SurfelSizes::SurfelSizes(float size, std::span<const vec3> probes, float share, std::span<const vec3> lamps)
+    : usual_level_(lamps.empty() ? 0 : halvings_of_many),
+      usual_(size),
+      share_(share),
+      lamp_share_(std::min(share, share_of_lamp)),
+      places_(std::make_shared<Places>(probes, lamps)) {}
+
+int SurfelSizes::level_by_probes(float local) const {
+  return usual_level_ + doublings(share_ * local, usual_, most_level - usual_level_);
+}
+
 int SurfelSizes::level(const vec3& position) const {
   if (!places_) return 0;
-  float local = std::numeric_limits<float>::infinity();
+  float local = 0;
   geometry::Near near{};
   if (places_->nearest_probe.find(position, {&near, 1}) > 0)
     local = std::max(std::sqrt(near.distance2), places_->apart[near.index]);
-  const float lamp_reach = std::min(local, size(most_) / share_);  // beyond it, lamps change nothing
-  if (places_->nearest_lamp.find(position, {&near, 1}, lamp_reach) > 0)
-    local = std::min(local, std::sqrt(near.distance2));
-  return doublings(share_ * local, finest_, most_);
+  const int level = level_by_probes(local);
+  if (places_->nearest_lamp.find(position, {&near, 1}, size(level) / lamp_share_) == 0) return level;
+  return std::min(level, doublings(lamp_share_ * std::sqrt(near.distance2), finest(), most_level));
 }
 
 int SurfelSizes::level(const scene::Bounds& box) const {
   if (!places_ || box.empty()) return 0;
+  if (places_->probes.empty()) return level_by_probes(0);
   float local = std::numeric_limits<float>::infinity();
   for (std::size_t i = 0; i < places_->probes.size(); ++i) {
     const vec3& probe = places_->probes[i];
     const float distance = glm::distance(probe, glm::clamp(probe, box.min, box.max));
     local = std::min(local, std::max(distance, places_->apart[i]));
   }
-  return doublings(share_ * local, finest_, most_);
+  return level_by_probes(local);
 }
 
 namespace {

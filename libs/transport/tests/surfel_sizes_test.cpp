@@ -49,7 +49,7 @@ TEST(SurfelSizes, DoubleWithTheDistanceOfProbesAndWithThatBetweenThem) {
   EXPECT_EQ(sizes.level(vec3(0)), 2) << "0.4 is no more than a quarter of 2, 0.8 is";
   EXPECT_EQ(sizes.level(vec3(0, 1.9f, 0)), 2) << "nearer than probes are apart";
   EXPECT_EQ(sizes.level(vec3(10, 0, 0)), 4) << "1.6 is no more than a quarter of 8, 3.2 is";
-  EXPECT_EQ(sizes.level(vec3(1e9f, 0, 0)), 15) << "3.3 km, however far";
+  EXPECT_EQ(sizes.level(vec3(1e9f, 0, 0)), 16) << "6.6 km, however far";
   const SurfelSizes alone(0.1f, std::span(probes).first(1), 0.25f);
   EXPECT_EQ(alone.level(vec3(0)), 0);
   EXPECT_EQ(alone.level(vec3(0, 0, 3.3f)), 3);
@@ -67,12 +67,17 @@ TEST(SurfelSizes, AreHalvedNearLamps) {
   EXPECT_FLOAT_EQ(at({0, 3, 3.3f}), 1.6f);
   EXPECT_FLOAT_EQ(at({1e6f, 0, 0}), 1.6f);
   EXPECT_EQ(sizes.size(sizes.level(scene::Bounds{vec3(-1), vec3(30)})), 1.6f) << "things that move";
-  // Where probes rule, lamps do beside them
+  // Where probes rule, lamps do beside them, and surfels are halved once
   const std::vector<vec3> probes{{0, 3, 40}};
   const SurfelSizes far(0.1f, probes, 0.25f), lit(0.1f, probes, 0.25f, lamps);
-  EXPECT_EQ(far.level(vec3(0, 3, 1)), 6) << "6.4 is no more than a quarter of 39";
-  EXPECT_EQ(lit.level(vec3(0, 3, 1)), 1) << "0.2 is no more than a quarter of 1";
-  EXPECT_EQ(lit.level(vec3(0, 3, 40)), 0);
+  EXPECT_FLOAT_EQ(far.size(far.level(vec3(0, 3, 1))), 6.4f) << "no more than a quarter of 39";
+  EXPECT_EQ(lit.usual(), 0.1f);
+  EXPECT_FLOAT_EQ(lit.finest(), 0.05f);
+  EXPECT_FLOAT_EQ(lit.size(lit.level(vec3(0, 3, 1))), 0.2f) << "no more than a quarter of 1";
+  EXPECT_FLOAT_EQ(lit.size(lit.level(vec3(0, 3, 0.5f))), 0.1f);
+  EXPECT_FLOAT_EQ(lit.size(lit.level(vec3(0, 3, 0.1f))), 0.05f) << "near the lamp";
+  EXPECT_FLOAT_EQ(lit.size(lit.level(vec3(0, 3, 40))), 0.1f) << "near the probe";
+  EXPECT_FLOAT_EQ(lit.size(lit.level(scene::Bounds{vec3(-1), vec3(1)})), 6.4f) << "things that move";
 }
 
 TEST(SurfelSizes, AreTheDoublingsThatTheHeaderTellsOf) {

@@ -39,6 +39,8 @@ inline constexpr float fitted_cosine = 0.7f;
 inline constexpr float fitted_off_plane = 0.5f;
 /// … this share of the distance.
 inline constexpr float fitted_off_plane_slope = 0.1f;
+/// Where points stand nearer to each other, one so many of their spacings away counts half.
+inline constexpr float fitted_coarser = 2.5f;
 /// Rays between such points start so many spacings above the surface, and this share higher of what it bulges
 /// by their normals.
 inline constexpr float fitted_lift = 0.02f, fitted_lift_over_bulges = 0.2f;
@@ -79,6 +81,7 @@ inline constexpr std::array constants_of_shaders = {
     ShaderConstant{"FITTED_COSINE", fitted_cosine},
     ShaderConstant{"FITTED_OFF_PLANE", fitted_off_plane},
     ShaderConstant{"FITTED_OFF_PLANE_SLOPE", fitted_off_plane_slope},
+    ShaderConstant{"FITTED_COARSER", fitted_coarser},
     ShaderConstant{"FITTED_RIDGE", fitted_ridge},
     ShaderConstant{"FITTED_NEGATIVE", fitted_negative},
 };

@@ -3,6 +3,7 @@
 /// where that makes too many, twice, four times, ... as large far from probes, so that a plain of ten
 /// kilometres costs little more than the house that stands on it.
 
+#include <cmath>
 #include <memory>
 #include <span>
 
@@ -13,21 +14,21 @@ namespace ssphh::transport {
 
 class SurfelSizes {
  public:
-  static constexpr int most_level = 15;  ///< doublings: surfels of a millimetre grow to 33 m at most
+  static constexpr int most_level = 16;  ///< doublings: surfels of a millimetre grow to 33 m at least
 
   /// Surfels are of one `size` [m], halved near `lamps`, once or twice, down to half the distance of the
   /// nearest one.
   explicit SurfelSizes(float size, std::span<const vec3> lamps = {});
-  /// `finest` [m], or the largest of its doublings that is no more than `share` of the local distance: that
-  /// of the nearest probe, or of this probe's nearest neighbour where that is more; of the nearest of `lamps`
-  /// where that is less.
-  SurfelSizes(float finest, std::span<const vec3> probes, float share, std::span<const vec3> lamps = {});
+  /// `size` [m], or the largest of its doublings that is no more than `share` of the local distance: that of
+  /// the nearest probe, or of this probe's nearest neighbour where that is more; of the nearest of `lamps`
+  /// where that is less, down to half of `size`.
+  SurfelSizes(float size, std::span<const vec3> probes, float share, std::span<const vec3> lamps = {});
 
-  float finest() const { return finest_; }
+  float finest() const { return size(0); }
   /// That of surfels which are neither near lamps nor far from probes [m].
   float usual() const { return usual_; }
   /// The size of a level [m].
-  float size(int level) const { return finest_ * static_cast<float>(1 << level); }
+  float size(int level) const { return std::ldexp(usual_, level - usual_level_); }
   /// Doublings of the finest size at a place, 0..most_level.
   int level(const vec3& position) const;
   /// The smallest level within a box that things move in, whose lamps may move, too: as if there were none.
@@ -36,9 +37,12 @@ class SurfelSizes {
  private:
   struct Places;
 
-  float finest_, usual_;
-  int most_;  ///< doublings
-  float share_ = 0;
+  /// Of surfels far from lamps.
+  int level_by_probes(float local) const;
+
+  int usual_level_;
+  float usual_;
+  float share_ = 0, lamp_share_;
   std::shared_ptr<const Places> places_;  ///< null: one size
 };
 
