@@ -161,7 +161,9 @@ TEST(GiTransportBake, WeightsFitBesidePathTracedLight) {
   bake::TransportBakeParams params;
   params.fit = true;
   params.transport.surfel_size = 0.25f;
+  ASSERT_FALSE(params.viz);
   bake::add_transport(source, set, params, report);
+  for (const probes::Probe& probe : set.probes) EXPECT_TRUE(probe.edges.empty()) << "nobody asked for VIZ";
   ASSERT_TRUE(set.fitted);
   EXPECT_EQ(*set.fitted, fitted_by_session(scene, set, params.fit_params))
       << "to the scene's own lights, too";

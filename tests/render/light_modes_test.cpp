@@ -332,6 +332,15 @@ TEST(LightModesInPictures, BakedLightNeedsRecords) {
   EXPECT_THROW(bake::set_light_modes(sky_baked_into_few().source, set, std::span(modes).first(1)), Error);
 }
 
+TEST(LightModesInPictures, AreKeptForEveryGroup) {
+  probes::ProbeSet set = sky_baked_into_few().set;
+  for (const std::vector<LightMode>& modes : {std::vector{LightMode::mixed, LightMode::realtime},
+                                              std::vector{LightMode::realtime, LightMode::mixed}}) {
+    bake::set_light_modes(sky_baked_into_few().source, set, modes);
+    EXPECT_EQ(bake::light_modes(set), modes);
+  }
+}
+
 TEST(LightModesInPictures, OfAFileThatHoldsOtherLightAreTold) {
   scene::Scene scene = open_ground();
   const probes::ProbeSet& set = sky_baked_into_few().set;

@@ -24,7 +24,7 @@ constexpr float least_spacing = 1.5f;
 
 /// Whether a sample of this sheet is among them.
 bool is_taken(const SampleLayers& taken, const SurfaceSamples& samples, const vec3& x, const vec3& normal,
-                     float part) {
+              float part) {
   constexpr float off_sheet = 0.1f, same = 0.9f;  // in parts; a cosine
   return std::any_of(taken.samples.begin(), taken.samples.begin() + taken.count, [&](std::uint32_t i) {
     return std::abs(glm::dot(x - samples.position(i), normal)) < off_sheet * part &&
@@ -157,7 +157,8 @@ Seen SurfaceListMaker::sees(ListWork& work, std::size_t i, std::uint32_t p) cons
 }
 
 /// Whether a pane of the box, of one sheet or two, is all that stands in the way.
-bool SurfaceListMaker::sees_through(const std::vector<std::uint32_t>& panes, const vec3& from, const vec3& to) const {
+bool SurfaceListMaker::sees_through(const std::vector<std::uint32_t>& panes, const vec3& from,
+                                    const vec3& to) const {
   float first = 1, last = 0;
   for (const std::uint32_t pane : panes) {
     const std::optional<float> share = passed(triangles_[pane], from, to);
@@ -207,7 +208,8 @@ bool SurfaceListMaker::is_narrow(ListWork& work, std::size_t i, std::size_t side
 }
 
 /// By the cut that loses least: columns serve a wall, cubes the folds of a curtain.
-SurfaceListMaker::CutParts SurfaceListMaker::seen_parts(const ListWork::Candidate& candidate, ListWork& work) const {
+SurfaceListMaker::CutParts SurfaceListMaker::seen_parts(const ListWork::Candidate& candidate,
+                                                        ListWork& work) const {
   const int axis = surface_axis(points_[candidate.point].normal);
   if (candidate.seen.empty() && candidate.outweighed.empty()) return {axis, ~std::uint64_t{0}};
   CutParts best = cut_so(candidate, axis, work);
@@ -220,7 +222,8 @@ SurfaceListMaker::CutParts SurfaceListMaker::seen_parts(const ListWork::Candidat
 
 /// Parts in which some sample sees the point, and all others do so at least through a pane that divides the
 /// part, sides within bodies and narrow gaps apart. A part without samples is as those around it.
-SurfaceListMaker::CutParts SurfaceListMaker::cut_so(const ListWork::Candidate& candidate, int cut, ListWork& work) const {
+SurfaceListMaker::CutParts SurfaceListMaker::cut_so(const ListWork::Candidate& candidate, int cut,
+                                                    ListWork& work) const {
   std::uint64_t known = 0, hidden = 0, seen = 0;
   for (const std::uint32_t sample : candidate.outweighed) hidden |= work.samples.part(sample, cut);
   known = hidden;

@@ -105,7 +105,8 @@ TEST(SharedLists, EndWhereSomethingStandsInTheWay) {
     const std::set<std::uint32_t> here = listed(lists, x);
     EXPECT_FALSE(here.empty());
     for (const std::uint32_t p : here) {
-      EXPECT_EQ(lists.points[p].position.x < wall, x.x < wall) << lists.points[p].position.x << " from " << x.x;
+      EXPECT_EQ(lists.points[p].position.x < wall, x.x < wall)
+          << lists.points[p].position.x << " from " << x.x;
       beside += std::abs(lists.points[p].position.x - wall) < 4;
     }
   }

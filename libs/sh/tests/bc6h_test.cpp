@@ -1,9 +1,12 @@
 // Blocks of BC6H: what they must hold exactly, and how near they come to what lies on a line or two. That the
 // bits mean what they mean to GPUs: libs/realtime/tests/bc6h_test.cpp.
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
+#include <glm/gtc/packing.hpp>
 #include <gtest/gtest.h>
 
 #include <ssphh/core/math.h>
@@ -31,6 +34,25 @@ TEST(Bc6h, OneColourIsKept) {
     const Bc6hColours back = through(all);
     for (const vec3& c : back) EXPECT_EQ(c, back[0]);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(back[0][c], colour[c], 0x1p-9f * colour[c] + 2e-7f);
+  }
+}
+
+TEST(Bc6h, WeightsOfALineAreThoseOfTheFormat) {
+  // Mode 11: five bits 00011, six ends of ten bits, here 0 and all ones, then indices of four bits, the first
+  // of three. Weights of 64ths as in "BC6H Format" of Direct3D's documentation.
+  constexpr std::array<int, 16> weights{0, 4, 9, 13, 17, 21, 26, 30, 34, 38, 43, 47, 51, 55, 60, 64};
+  std::array<int, 128> bits{1, 1};
+  for (std::size_t i = 35; i < 65; ++i) bits[i] = 1;
+  for (std::size_t pixel = 0; pixel < 16; ++pixel) {
+    for (std::size_t b = 0; b < 4; ++b)
+      if (pixel > 0) bits[64 + 4 * pixel + b] = static_cast<int>(pixel >> b & 1);
+  }
+  Bc6hBlock block{};
+  for (std::size_t i = 0; i < 128; ++i) block[i / 8] |= static_cast<std::byte>(bits[i] << i % 8);
+  const Bc6hColours colours = from_bc6h(block);
+  for (std::size_t i = 0; i < 16; ++i) {
+    const int half = ((0xffff * weights[i] + 32) >> 6) * 31 >> 6;
+    EXPECT_EQ(colours[i], vec3(glm::unpackHalf1x16(static_cast<std::uint16_t>(half)))) << i;
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <ssphh/study/converged_truth.h>
 #include <ssphh/study/leak.h>
 #include <ssphh/study/lint.h>
 #include <ssphh/study/lookup_error.h>
@@ -20,6 +21,8 @@ TEST(Defaults, OfWhatMeasures) {
   EXPECT_EQ(leak.path.spp, 256);
   EXPECT_EQ(leak.path.seed, 0u);
   EXPECT_EQ(leak.mean, 0);
+  EXPECT_EQ(most_truth_spp, 65536);
+  EXPECT_EQ(most_truth_paths, std::size_t{1} << 24);
   const LintParams lint;
   EXPECT_EQ(lint.clearance, 0);
   EXPECT_EQ(lint.negative_tolerance, 0.1f);

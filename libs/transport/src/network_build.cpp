@@ -86,17 +86,17 @@ class NetworkBuilder {
   /// Larger surfels far from probes and lamps, where one size for all would make too many.
   void choose_sizes() {
     const std::size_t most = static_cast<std::size_t>(d_.params.most_surfels);
-    SurfelSizes sizes = sizes_within(d_.gbuffer, d_.surfels.size(), most, lamp_places());
+    const float size = d_.surfels.size();
+    SurfelSizes sizes = sizes_within(d_.gbuffer, size, most, lamp_places(size), lamp_places(4 * size));
     std::vector<int> part_levels;
     for (const scene::Bounds& swept : d_.swept) part_levels.push_back(sizes.level(swept));
     d_.surfels = SurfelSet(d_.source, std::move(sizes), std::move(part_levels));
   }
 
-  /// On the scene's own lamps as they are first, for surfels follow none that move; on those that are small,
-  /// beside which light falls off within a surfel: far from probes they are wider.
-  std::vector<vec3> lamp_places() const {
+  /// On the scene's own lamps as they are first, for surfels follow none that move; on those that are no
+  /// wider [m], beside which light falls off within a surfel.
+  std::vector<vec3> lamp_places(float widest) const {
     constexpr int per_group = 256;
-    const float widest = 4 * d_.surfels.size();
     std::vector<mat4> poses;
     for (int part = 0; part < d_.source.part_count(); ++part) poses.push_back(d_.source.part_pose(part, 0));
     const auto light = d_.source.direct_light(d_.source.lights(0), poses);

@@ -124,14 +124,14 @@ double estimated_surfels(const ProbeGBuffer& gbuffer, const SurfelSizes& sizes) 
   return surfels_of(patches_of(gbuffer), sizes);
 }
 
-SurfelSizes sizes_within(const ProbeGBuffer& gbuffer, float finest, std::size_t most,
-                         std::span<const vec3> lamps) {
+SurfelSizes sizes_within(const ProbeGBuffer& gbuffer, float size, std::size_t most,
+                         std::span<const vec3> small_lamps, std::span<const vec3> lamps) {
   const std::vector<Patch> patches = patches_of(gbuffer);
-  SurfelSizes sizes(finest, lamps);
+  SurfelSizes sizes(size, small_lamps);
   if (surfels_of(patches, sizes) <= static_cast<double>(most)) return sizes;
   constexpr float first_share = 1.0f / 12, last_share = 16;
   for (float share = first_share; share <= last_share; share *= 1.25f) {
-    sizes = SurfelSizes(finest, gbuffer.positions, share, lamps);
+    sizes = SurfelSizes(size, gbuffer.positions, share, lamps);
     if (surfels_of(patches, sizes) <= static_cast<double>(most) / 6) break;
   }
   return sizes;

@@ -130,6 +130,12 @@ TEST(SurfelSizes, TheEstimateIsTheSurfaceSeenOverTheVoxelsFace) {
   const SurfelSizes coarse = sizes_within(seen, 0.25f, 1200);
   EXPECT_GT(coarse.level(vec3(9)), 0);
   EXPECT_LE(estimated_surfels(seen, coarse), 200);
+  // Wider lamps count only where surfels near them would be coarse
+  const std::vector<vec3> lamps{{2, 1.5f, 2.5f}};
+  EXPECT_EQ(sizes_within(seen, 0.25f, 2000, lamps).finest(), 0.0625f);
+  EXPECT_EQ(sizes_within(seen, 0.25f, 2000, {}, lamps).finest(), 0.25f);
+  EXPECT_EQ(sizes_within(seen, 0.25f, 1200, lamps).finest(), 0.25f);
+  EXPECT_EQ(sizes_within(seen, 0.25f, 1200, {}, lamps).finest(), 0.125f);
 }
 
 TEST(SurfelSizes, APlainOfTenKilometresCostsLittleMoreThanOneOfAHundredMetres) {

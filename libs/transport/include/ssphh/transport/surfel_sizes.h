@@ -50,9 +50,11 @@ class SurfelSizes {
 /// the sphere cuts out, where no other probe is nearer.
 double estimated_surfels(const ProbeGBuffer& gbuffer, const SurfelSizes& sizes);
 
-/// `finest` [m] everywhere if that makes about `most` surfels or fewer, else as much larger far from probes
-/// and lamps as it takes to come down to a sixth of that (clutter makes more of them than its area tells).
-SurfelSizes sizes_within(const ProbeGBuffer& gbuffer, float finest, std::size_t most,
-                         std::span<const vec3> lamps = {});
+/// `size` [m] everywhere, halved near `small_lamps`, if that makes about `most` surfels or fewer, else as
+/// much larger far from probes and `lamps` as it takes to come down to a sixth of that (clutter makes more of
+/// them than its area tells). There surfels near lamps would be several times as large, so `lamps` may be
+/// wider.
+SurfelSizes sizes_within(const ProbeGBuffer& gbuffer, float size, std::size_t most,
+                         std::span<const vec3> small_lamps = {}, std::span<const vec3> lamps = {});
 
 }  // namespace ssphh::transport
