@@ -57,7 +57,7 @@ bool SurfaceListMaker::make(const ListedBox& box, ListWork& work) const {
   if (!box.one_cell()) {
     if (work.finest < least_spacing * box.size) return false;
     std::ranges::sort(work.triangles);
-    work.triangles.erase(std::ranges::unique(work.triangles).begin(), work.triangles.end());
+    work.triangles.erase(std::unique(work.triangles.begin(), work.triangles.end()), work.triangles.end());
   }
   take_samples(box, work);
   if (work.samples.size() == 0) return true;

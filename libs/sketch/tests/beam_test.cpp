@@ -1,11 +1,12 @@
-/// What a beam of rays says that it may meet, against points within what it does meet; and sketches put together.
+/// What a beam of rays says that it may meet, against points within what it does meet; and sketches put
+/// together.
+
+#include "beam.h"
 
 #include <gtest/gtest.h>
 
 #include <ssphh/core/random.h>
 #include <ssphh/core/sphere.h>
-
-#include "beam.h"
 
 namespace ssphh::sketch {
 namespace {
@@ -31,7 +32,8 @@ TEST(Beam, MeetsTheBallsThatReachIntoIt) {
     int inside = 0;
     constexpr int points = 400;
     for (int i = 0; i < points; ++i)
-      inside += holds(beam, center + std::cbrt(random.uniform()) * radius * sample_uniform_sphere(random.uniform2()));
+      inside += holds(
+          beam, center + std::cbrt(random.uniform()) * radius * sample_uniform_sphere(random.uniform2()));
     const bool meets = beam.meets_ball(center, radius);
     EXPECT_TRUE(meets || inside == 0) << round;
     // A ball that does reach in does so visibly, but for the few that hardly do

@@ -115,7 +115,11 @@ class RecordPlaces {
   }
 
  private:
-  int level_of(const rays::SurfacePoint& point) const { return surfel_sizes_.level(0, point.position); }
+  /// Where surfels are coarse, lamps make finer ones, but no denser records: they would be missed elsewhere.
+  int level_of(const rays::SurfacePoint& point) const {
+    const SurfelSizes& sizes = surfel_sizes_.sizes();
+    return sizes.grow() ? sizes.level_by_probes(point.position) : sizes.level(point.position);
+  }
 
   /// Places that no surfel stands at are worth fewer points: their cubes are so large that at most so many
   /// hold any.

@@ -49,31 +49,37 @@ SurfelSizes::SurfelSizes(float size, std::span<const vec3> probes, float share, 
       lamp_share_(std::min(share, share_of_lamp)),
       places_(std::make_shared<Places>(probes, lamps)) {}
 
-int SurfelSizes::level_by_probes(float local) const {
+int SurfelSizes::level_of(float local) const {
   return usual_level_ + doublings(share_ * local, usual_, most_level - usual_level_);
 }
 
-int SurfelSizes::level(const vec3& position) const {
+int SurfelSizes::level_by_probes(const vec3& position) const {
   if (!places_) return 0;
   float local = 0;
   geometry::Near near{};
   if (places_->nearest_probe.find(position, {&near, 1}) > 0)
     local = std::max(std::sqrt(near.distance2), places_->apart[near.index]);
-  const int level = level_by_probes(local);
-  if (places_->nearest_lamp.find(position, {&near, 1}, size(level) / lamp_share_) == 0) return level;
+  return level_of(local);
+}
+
+int SurfelSizes::level(const vec3& position) const {
+  const int level = level_by_probes(position);
+  geometry::Near near{};
+  if (!places_ || places_->nearest_lamp.find(position, {&near, 1}, size(level) / lamp_share_) == 0)
+    return level;
   return std::min(level, doublings(lamp_share_ * std::sqrt(near.distance2), finest(), most_level));
 }
 
 int SurfelSizes::level(const scene::Bounds& box) const {
   if (!places_ || box.empty()) return 0;
-  if (places_->probes.empty()) return level_by_probes(0);
+  if (places_->probes.empty()) return level_of(0);
   float local = std::numeric_limits<float>::infinity();
   for (std::size_t i = 0; i < places_->probes.size(); ++i) {
     const vec3& probe = places_->probes[i];
     const float distance = glm::distance(probe, glm::clamp(probe, box.min, box.max));
     local = std::min(local, std::max(distance, places_->apart[i]));
   }
-  return level_by_probes(local);
+  return level_of(local);
 }
 
 namespace {

@@ -74,6 +74,10 @@ TEST(SurfelSizes, AreHalvedNearLamps) {
   EXPECT_EQ(lit.usual(), 0.1f);
   EXPECT_FLOAT_EQ(lit.finest(), 0.05f);
   EXPECT_FLOAT_EQ(lit.size(lit.level(vec3(0, 3, 1))), 0.2f) << "no more than a quarter of 1";
+  EXPECT_FLOAT_EQ(lit.size(lit.level_by_probes(vec3(0, 3, 1))), 6.4f) << "lamps left out";
+  EXPECT_FLOAT_EQ(sizes.size(sizes.level_by_probes({0, 3, 0.01f})), 1.6f);
+  EXPECT_TRUE(lit.grow());
+  EXPECT_FALSE(sizes.grow());
   EXPECT_FLOAT_EQ(lit.size(lit.level(vec3(0, 3, 0.5f))), 0.1f);
   EXPECT_FLOAT_EQ(lit.size(lit.level(vec3(0, 3, 0.1f))), 0.05f) << "near the lamp";
   EXPECT_FLOAT_EQ(lit.size(lit.level(vec3(0, 3, 40))), 0.1f) << "near the probe";

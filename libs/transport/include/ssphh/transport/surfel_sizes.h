@@ -31,14 +31,17 @@ class SurfelSizes {
   float size(int level) const { return std::ldexp(usual_, level - usual_level_); }
   /// Doublings of the finest size at a place, 0..most_level.
   int level(const vec3& position) const;
+  /// The same as if there were no lamps.
+  int level_by_probes(const vec3& position) const;
+  /// Whether surfels grow with the distance of probes.
+  bool grow() const { return share_ > 0; }
   /// The smallest level within a box that things move in, whose lamps may move, too: as if there were none.
   int level(const scene::Bounds& box) const;
 
  private:
   struct Places;
 
-  /// Of surfels far from lamps.
-  int level_by_probes(float local) const;
+  int level_of(float local) const;  ///< by the local distance of probes [m]
 
   int usual_level_;
   float usual_;

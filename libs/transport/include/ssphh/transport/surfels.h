@@ -49,6 +49,7 @@ class SurfelSet {
   float size() const { return sizes_.usual(); }
   /// The edge of the largest voxels that hold a surfel [m].
   float coarsest() const;
+  const SurfelSizes& sizes() const { return sizes_; }
   /// The level of a part's point: doublings of the finest voxels' edge.
   int level(int part, const vec3& position) const;
   float size(int level) const { return sizes_.size(level); }
