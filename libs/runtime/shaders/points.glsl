@@ -32,15 +32,18 @@ int ssphh_cell(vec3 x, out ivec4 parts) {
 bool ssphh_has_mask(uint entry) { return (entry >> 31u) != 0u; }
 int ssphh_point_of(uint entry) { return int(entry & 0x1fffffffu); }
 
-// Weight of a point before the fit, 0: it lights nothing here; offset: to it
-float ssphh_point_weight(uint entry, vec3 n, vec3 x, ivec4 parts, int mask, out vec3 offset, out float spacing) {
+// Weight of a point before the fit, 0: it lights nothing here; mask: of the next entry that has one; offset: to the point
+float ssphh_point_weight(uint entry, vec3 n, vec3 x, ivec4 parts, inout int mask, out vec3 offset, out float spacing) {
   int point_index = ssphh_point_of(entry);
   vec4 place = ssphh_floats(SSPHH_POINTS + 2 * point_index), normal = ssphh_floats(SSPHH_POINTS + 2 * point_index + 1);
   uint cover = floatBitsToUint(normal.w), cut = (entry >> 29u) & 3u;
   int part = cut == 0u ? parts.x : cut == 1u ? parts.y : cut == 2u ? parts.z : parts.w;
   offset = place.xyz - x;
   spacing = place.w;
-  if (ssphh_has_mask(entry) && !ssphh_masked(mask, part)) return 0.0;
+  if (ssphh_has_mask(entry)) {
+    ++mask;
+    if (!ssphh_masked(mask - 1, part)) return 0.0;
+  }
   float d2 = dot(offset, offset), s2 = spacing * spacing;
   float t = 1.0 - d2 / (9.0 * s2), facing = (dot(normal.xyz, n) - 0.7) / (1.0 - 0.7);
   float off = dot(offset, n) / (0.5 * spacing + 0.1 * sqrt(d2)), level = 1.0 - off * off;
@@ -88,7 +91,7 @@ bool ssphh_by_points(vec3 x, vec3 n, vec3 shading, out vec3 irradiance) {
     vec3 offset;
     float spacing;
     float w = ssphh_point_weight(entry, n, x, parts, mask, offset, spacing);
-    if (ssphh_has_mask(entry)) ++mask;
+    if (!(w > 0.0)) continue;
     counted += w;
     per_spacing += w / spacing;
   }
@@ -106,7 +109,6 @@ bool ssphh_by_points(vec3 x, vec3 n, vec3 shading, out vec3 irradiance) {
     vec3 offset;
     float spacing;
     float w = ssphh_point_weight(entry, n, x, parts, mask, offset, spacing);
-    if (ssphh_has_mask(entry)) ++mask;
     if (!(w > 0.0)) continue;
     w *= ssphh_beside_finer(offset, usual);
     vec2 at = vec2(dot(offset, along), dot(offset, across)) * unit;
@@ -137,7 +139,6 @@ bool ssphh_by_points(vec3 x, vec3 n, vec3 shading, out vec3 irradiance) {
     vec3 offset;
     float spacing;
     float w = ssphh_point_weight(entry, n, x, parts, mask, offset, spacing);
-    if (ssphh_has_mask(entry)) ++mask;
     w *= ssphh_beside_finer(offset, usual);
     negative += w * max(dot(slope, vec2(dot(offset, along), dot(offset, across)) * unit - from_here) - 1.0, 0.0);
   }
