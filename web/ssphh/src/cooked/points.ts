@@ -4,10 +4,11 @@ import { bitCount, dot3, type Float3 } from './float.js';
 import { mostListedPoints, pointOf, recordFloats } from './layout.js';
 
 const f = Math.fround;
-const reach = 3, leastCosine = f(0.7), offPlane = f(0.5), offPlaneSlope = f(0.1), ridge = f(0.05), mostNegative = f(0.25);
+const reach = 3, leastCosine = f(0.7), offPlane = f(0.5), offPlaneSlope = f(0.1), ridge = f(0.05), mostNegative = f(0.25), coarser = 2.5;
 
 const sharePoint = new Uint32Array(mostListedPoints);
 const shareWeight = new Float32Array(mostListedPoints), shareX = new Float32Array(mostListedPoints), shareY = new Float32Array(mostListedPoints);
+const shareDistance2 = new Float32Array(mostListedPoints), shareSpacing = new Float32Array(mostListedPoints);
 const parts = new Uint8Array(4), at = new Uint32Array(3), part = new Uint8Array(3);
 const tangentX = new Float32Array(3), tangentY = new Float32Array(3);
 const basis = new Float32Array(10), sum = new Float32Array(32), e = new Float32Array(3);
@@ -70,7 +71,7 @@ function findShares(file: CookedFile, x: Float3, n: Float3): number {
   const { points, pointWords, entries, masks } = file, nx = n[0]!, ny = n[1]!, nz = n[2]!, x0 = x[0]!, x1 = x[1]!, x2 = x[2]!;
   const end = file.cells[2 * cell + 2]!, unit = f(1 / file.header.grids[0].cellSize);
   let mask = 2 * file.cells[2 * cell + 1]!, count = 0;
-  let total = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0, spacings = 0;
+  let total = 0, perSpacing = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0, spacings = 0;
   setTangents(n);
   const ax = tangentX[0]!, ay = tangentX[1]!, az = tangentX[2]!, bx = tangentY[0]!, by = tangentY[1]!, bz = tangentY[2]!;
   for (let i = file.cells[2 * cell]!; i < end; ++i) {
@@ -83,17 +84,29 @@ function findShares(file: CookedFile, x: Float3, n: Float3): number {
     const ox = f(points[p]! - x0), oy = f(points[p + 1]! - x1), oz = f(points[p + 2]! - x2);
     const w = weightOf(points, cover, p, ox, oy, oz, nx, ny, nz);
     if (!(w > 0)) continue;
-    const dx = f(dot3(ox, oy, oz, ax, ay, az) * unit), dy = f(dot3(ox, oy, oz, bx, by, bz) * unit), spacing = f(points[p + 3]! * unit);
+    const spacing = points[p + 3]!;
     sharePoint[count] = point;
     shareWeight[count] = w;
-    shareX[count] = dx;
-    shareY[count] = dy;
+    shareX[count] = f(dot3(ox, oy, oz, ax, ay, az) * unit);
+    shareY[count] = f(dot3(ox, oy, oz, bx, by, bz) * unit);
+    shareDistance2[count] = dot3(ox, oy, oz, ox, oy, oz);
+    shareSpacing[count] = spacing;
     ++count;
+    total += w;
+    perSpacing += f(w / spacing);
+  }
+  if (!(total > 0)) return 0;
+  // A far point of a plain, with its long lever, would tilt the fit of a room
+  const mean = f(total / perSpacing), far2 = f(f(coarser * coarser * mean) * mean);
+  total = 0;
+  for (let i = 0; i < count; ++i) {
+    const q = f(shareDistance2[i]! / far2), w = f(shareWeight[i]! / f(1 + f(q * q)));
+    const dx = shareX[i]!, dy = shareY[i]!, spacing = f(shareSpacing[i]! * unit);
+    shareWeight[i] = w;
     total += w, sx += w * dx, sy += w * dy;
     sxx += w * dx * dx, sxy += w * dx * dy, syy += w * dy * dy;
     spacings += w * spacing * spacing;
   }
-  if (!(total > 0)) return 0;
   // First row of the inverse of [1 x y; x xx xy; y xy yy], to a factor
   const mx = sx / total, my = sy / total, r = (ridge * spacings) / total;
   const xx = sxx / total + r, xy = sxy / total, yy = syy / total + r;
