@@ -81,6 +81,32 @@ TEST(RecordPlaces, AreDenseWhereSurfacesMeet) {
   EXPECT_GT(outer, 4 * 3 * inner) << "twice as dense as without regard to nearness, at least";
 }
 
+TEST(RecordPlaces, FewAreNotTakenFromElsewhereByLampsThatMakeCoarseSurfelsFiner) {
+  const auto far_records = [](const scene::Scene& scene) {
+    const trace::TransportScene source(scene);
+    transport::TransportParams params = small_network();
+    params.surfel_size = 0.3f;
+    params.most_surfels = 2000;
+    const transport::TransportNetwork network(source, scene::positions_of(places_of(scene)), params);
+    const std::vector<Irradiance4> none(network.patch_count(), Irradiance4(0)),
+        none_of_surfels(network.surfel_count(), Irradiance4(0));
+    const auto gather = gather_where_needed(network, {60, 64}, std::array{0.0f}, [&](float) {
+      return transport::PosedIrradiance{{}, none, none_of_surfels};
+    });
+    return std::ranges::count_if(gather->points(),
+                                 [](const rays::SurfacePoint& p) { return std::abs(p.position.x) > 5; });
+  };
+  scene::Scene lit;  // a passage of 40 m with a lamp in its middle
+  add_body(lit, "floor", scene::flipped(scene::make_quad({-20, 0, -2}, {40, 0, 0}, {0, 0, 4})), vec3(0.5f));
+  add_body(lit, "ceiling", scene::make_quad({-20, 2.5f, -2}, {40, 0, 0}, {0, 0, 4}), vec3(0.5f));
+  for (int i = 0; i < 20; ++i) add_sphl(lit, fmt::format("{}", i), {2 * i - 19, 1.2f, 0});
+  add_body(lit, "lamp", scene::make_quad({-0.3f, 2.4f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}), vec3(0.5f),
+           vec3(10));
+  scene::Scene dark = lit;
+  dark.materials.back().emission = vec3(0);
+  EXPECT_GT(5 * far_records(lit), 4 * far_records(dark)) << "a fifth, where lamps make records denser";
+}
+
 TEST(RecordPlaces, AreDenseWhereSurfelsGotWhatPointsDoNotGive) {
   // Of a room in darkness a patch of the floor is said to have got light, which no point tells.
   SolvedScene box(scene::make_builtin("box"), 0.08f);

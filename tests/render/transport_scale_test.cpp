@@ -69,5 +69,28 @@ TEST(TransportScale, FewerSurfelsThanOneSizeWouldMakeHoldTheSameLight) {
   EXPECT_LT(difference(coarse.set, fine.set), 0.05);
 }
 
+TEST(TransportScale, FewSurfelsAreHalfAsLargeNearLampsUpToFourTimesAsWide) {
+  set_log_level(LogLevel::error);
+  const scene::Scene dark = test::coloured_room(vec3(0));
+  scene::Scene lit = dark;
+  test::add_body(lit, "lamp",
+                 scene::flipped(scene::make_quad({-0.22f, 0.99f, -0.22f}, {0.45f, 0, 0}, {0, 0, 0.45f})),
+                 vec3(0.5f), vec3(10));
+  const auto finest = [](const scene::Scene& scene, float size, int most) {
+    const trace::TransportScene source(scene);
+    transport::TransportParams params = test::small_network();
+    params.surfel_size = size;
+    params.most_surfels = most;
+    return transport::TransportNetwork(source, scene::positions_of(test::places_of(scene)), params)
+        .surfels()
+        .sizes()
+        .finest();
+  };
+  EXPECT_FLOAT_EQ(finest(lit, 0.12f, 1000), 0.06f);
+  EXPECT_FLOAT_EQ(finest(dark, 0.12f, 1000), 0.12f);
+  EXPECT_FLOAT_EQ(finest(lit, 0.1f, 1000), 0.1f) << "more than four times as wide";
+  EXPECT_FLOAT_EQ(finest(lit, 0.12f, 100000), 0.12f) << "of one size, there only lamps that are no wider";
+}
+
 }  // namespace
 }  // namespace ssphh
