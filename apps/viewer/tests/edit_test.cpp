@@ -366,6 +366,17 @@ TEST(Document, IsSavedWithLightsAndProbesInTheOrderOfTheirNodes) {
   EXPECT_EQ(scene.sphls.back().name, "A west");
 }
 
+TEST(Document, IsSavedWithTheProbesOfOneNodeInTheirOrder) {
+  scene::Scene scene = scene::make_builtin("two-rooms");
+  for (const char* name : {"z", "y", "x"}) scene.sphls.push_back({name, scene.sphls.front().node, 0.1f});
+  const Document document = make_document("several on a node", std::move(scene), 0);
+  std::vector<std::string> names;
+  const scene::Scene saved = scene_to_save(document);
+  for (const scene::Sphl& sphl : saved.sphls)
+    if (sphl.node == saved.sphls.front().node) names.push_back(sphl.name);
+  EXPECT_THAT(names, testing::ElementsAre("A west", "z", "y", "x"));
+}
+
 TEST(Document, StartsAtTheNamedCamera) {
   const Document document = two_rooms();
   EXPECT_EQ(start_view(document, "room-b").eye, vec3(3.8f, 1.6f, -1.3f));

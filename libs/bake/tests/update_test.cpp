@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <ssphh/bake/transport_bake.h>
 #include <ssphh/bake/update.h>
 #include <ssphh/core/error.h>
 #include <ssphh/core/random.h>
@@ -41,6 +42,29 @@ BakeParams row_bake() {
   params.path.spp = 4;
   params.viz = false;
   return params;
+}
+
+TEST(TransportParamsOf, AFileAreThoseOfItsBake) {
+  probes::ProbeSet set = lit_row();
+  set.generator.op = probes::LightOperator::surfel;
+  set.generator.directions = 77, set.generator.surfel_size = 0.25f, set.generator.link_rays = 33;
+  set.generator.viz = probes::VizMethod::links;
+  set.generator.viz_source = probes::VizSource::radiance;
+  probes::Baseline& baseline = set.baseline.emplace();
+  baseline.viz_neighbors = 5, baseline.viz_threshold = 0.125f, baseline.records = 99,
+  baseline.most_surfels = 4321;
+  const TransportBakeParams params = transport_params_of(set);
+  EXPECT_EQ(params.op, probes::LightOperator::surfel);
+  EXPECT_EQ(params.transport.directions, 77);
+  EXPECT_EQ(params.transport.surfel_size, 0.25f);
+  EXPECT_EQ(params.transport.link_rays, 33);
+  EXPECT_EQ(params.transport.most_surfels, 4321);
+  EXPECT_TRUE(params.viz);
+  EXPECT_EQ(params.viz_params.source, probes::VizSource::radiance);
+  EXPECT_EQ(params.viz_params.neighbors, 5);
+  EXPECT_EQ(params.viz_params.threshold, 0.125f);
+  EXPECT_EQ(params.records.points, 99);
+  EXPECT_FALSE(params.fit);
 }
 
 /// Light that depends on the paths' seed alone; remembers the seeds.

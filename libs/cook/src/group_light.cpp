@@ -14,7 +14,6 @@ namespace {
 std::vector<sh::RadianceSh> light_of_group(const probes::ProbeSet& set, std::size_t group) {
   probes::ProbeSet one;
   one.degree = set.degree;
-  one.generator = set.generator;
   one.light_groups = set.light_groups;
   for (std::size_t g = 0; g < one.light_groups.size(); ++g) one.light_groups[g].scale = vec3(g == group);
   for (const probes::Probe& probe : set.probes) {

@@ -8,6 +8,7 @@
 #include <ssphh/sh/irradiance.h>
 #include <ssphh/sh/quadrature.h>
 
+#include "error_message.h"
 #include "sky_transfer.h"
 #include "triangle_source.h"
 
@@ -59,6 +60,15 @@ TEST(Transfer, OpenPlaneIsTheClosedForm) {
 }
 
 /// Beside a wall without end half of the sky is hidden.
+TEST(Transfer, OfMoreBandsThanThereAreIsRefused) {
+  scene::Scene scene;
+  add(scene, scene::make_quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}));
+  for (const int degree : {-1, 11}) {
+    const std::string error = test::message_of([&] { Baked(scene, {.degree = degree}, 16, 1); });
+    EXPECT_NE(error.find("radiance transfer"), std::string::npos) << error;
+  }
+}
+
 TEST(Transfer, AWallHidesHalfTheSky) {
   scene::Scene scene;
   add(scene, scene::make_quad({0, 0, 1}, {1, 0, 0}, {0, 0, -1}));             // floor, x ≥ 0

@@ -104,6 +104,27 @@ TEST(Draw, ALineHasItsWidthWhereverItLies) {
   }
 }
 
+/// Pixels are of other angles in other places: rays that turn three times as far per pixel at the right as in
+/// the middle of the picture, whatever their height.
+TEST(Draw, ALineHasItsWidthWherePixelsAreOfOtherAngles) {
+  const auto angle_at = [](float x) { return 0.001f * x + 0.00005f * x * x; };
+  const Eye eye{[&](float x, float y) -> Ray {
+    const float turn = angle_at(x), up = 0.001f * (0.5f * size - y);
+    return {vec3(0), glm::normalize(vec3(std::sin(turn), up, -std::cos(turn)))};
+  }};
+  for (const float at : {8.5f, 50.5f}) {
+    const float turn = angle_at(at);
+    const vec3 middle(std::sin(turn), 0, -std::cos(turn));
+    const image::Image picture = drawn(
+        {.lines = {{middle - vec3(0, 1, 0), middle + vec3(0, 1, 0), vec3(1), 6}}}, eye, {.samples = 10});
+    for (const int y : {4, 60}) {
+      float row = 0;
+      for (int x = 0; x < size; ++x) row += picture.rgb(x, y).x;
+      EXPECT_NEAR(row, 6, 0.5f) << "at " << at << ", row " << y;
+    }
+  }
+}
+
 TEST(Draw, ABallIsARoundDisc) {
   const float radius = 0.25f;
   const image::Image picture = drawn({.balls = {{vec3(0), radius, vec3(1)}}}, parallel());

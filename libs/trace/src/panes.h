@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <ssphh/scene/query.h>
+#include <ssphh/shading/mesh_view.h>
 
 #include "shaded_geometry.h"
 
@@ -40,7 +41,6 @@ struct Pane {
 std::vector<Pane> find_panes(const ShadedGeometry& geometry);
 
 inline constexpr std::size_t most_planes = 16;
-/// As many as shading::MeshView takes.
-inline constexpr std::size_t most_pane_triangles = 32;
+inline constexpr std::size_t most_pane_triangles = shading::MeshView::max_triangles;
 
 }  // namespace ssphh::trace
