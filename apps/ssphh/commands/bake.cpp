@@ -104,11 +104,11 @@ void add_transport_options(const Command& surfels, BakeOptions& options, BakeUse
           .range(4, 1 << 16)};
   surfels
       .option("--records", options.records,
-              fmt::format(
-                  "Also keep the light of so many surface points at most, dense where it asks for "
-                  "it, and of as many again where those are not seen, for --weights surface; 0: "
-                  "none. Default: {}, but none with --operator bounce, --gen local or --max-depth below {}",
-                  transport::usual_records, rays::usual_max_depth))
+              fmt::format("Also keep the light of so many surface points at most, dense where it asks for "
+                          "it, and of as many again where those are not seen, for --weights surface; 0: "
+                          "none. Default: {} for as many as 150 probes, more for more, {} at most, but none "
+                          "with --operator bounce, --gen local or --max-depth below {}",
+                          transport::usual_records, 2 * transport::usual_records, rays::usual_max_depth))
       .range(0, 1 << 16);
   surfels.flag("--fit", options.transport.fit,
                "Also fit lookup weights at the surfels and store them with the probes");

@@ -35,13 +35,20 @@ probes::LightOperator operator_of(const BakeSettings& o, std::size_t probes, boo
   return probes::LightOperator::surfel;
 }
 
+/// A furnished flat has so many probes, for which the usual records are enough; a town has more of both, but
+/// no more than so many times as many records: they take their time.
+constexpr double probes_of_a_flat = 150, most_flats = 2;
+
 /// Records hold every bounce, so there are none unasked beside probes that are to hold fewer, unless light
 /// that is baked must be kept somewhere.
-int records_of(const BakeSettings& o, bool keeps_asked) {
+int records_of(const BakeSettings& o, std::size_t probes, bool keeps_asked) {
   const bool every_bounce = o.op == probes::LightOperator::surfel ||
                             (o.op == probes::LightOperator::path && o.params.gen == probes::GenMode::full &&
                              o.params.path.max_depth >= rays::usual_max_depth);
-  return every_bounce || keeps_asked ? o.usual_records : 0;
+  if (!every_bounce && !keeps_asked) return 0;
+  const double flats = std::clamp(static_cast<double>(probes) / probes_of_a_flat, 1.0, most_flats);
+  const auto most = std::max(o.usual_records, static_cast<int>(transport::most_records));
+  return std::min(static_cast<int>(flats * o.usual_records), most);
 }
 
 /// Decides on VIZ, which it returns, and refuses options that would have no effect. `keeps_asked`: the scene
@@ -73,7 +80,7 @@ probes::VizMethod resolve(BakeSettings& o, std::size_t probes, bool farm, bool k
   params.viz_path = {o.viz_max_depth.value_or(params.path.max_depth),
                      o.viz_passes.value_or(params.path.passes), o.viz_spp.value_or(params.path.spp),
                      params.path.seed};
-  o.transport.records.points = o.records.value_or(records_of(o, keeps_asked));
+  o.transport.records.points = o.records.value_or(records_of(o, probes, keeps_asked));
   if (o.transport.records.points == 0 && keeps_asked)
     throw Error("--records 0", "leaves no place for the light of groups that are baked",
                 "leave it out, or bake no group's direct light: --light-mode GROUP=mixed");

@@ -170,6 +170,9 @@ TEST_F(BakeChoices, KeepRecordsWhereLightHasEveryBounce) {
     s.params.path.max_depth = rays::usual_max_depth, s.params.gen = probes::GenMode::local;
   });
   add("surfel", 2, [](BakeSettings& s) { s.op = LightOperator::surfel, s.viz = VizMethod::none; });
+  for (const int probes : {150, 225, 400})
+    add(fmt::format("surfel, {} probes", probes), probes,
+        [](BakeSettings& s) { s.op = LightOperator::surfel, s.viz = VizMethod::none; });
   add("bounce", 2, [](BakeSettings& s) { s.op = LightOperator::bounce, s.viz = VizMethod::none; });
   add("as many as asked for", 2, [](BakeSettings& s) { s.records = 7, s.of_transport = {"--records"}; });
   for (const scene::LightMode mode : {scene::LightMode::baked, scene::LightMode::mixed}) {

@@ -138,7 +138,7 @@ SurfelSizes sizes_within(const ProbeGBuffer& gbuffer, float size, std::size_t mo
   constexpr float first_share = 1.0f / 12, last_share = 16;
   for (float share = first_share; share <= last_share; share *= 1.25f) {
     sizes = SurfelSizes(size, gbuffer.positions, share, lamps);
-    if (surfels_of(patches, sizes) <= static_cast<double>(most) / 6) break;
+    if (surfels_of(patches, sizes) <= static_cast<double>(most) / 4) break;
   }
   return sizes;
 }

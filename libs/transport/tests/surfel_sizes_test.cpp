@@ -129,11 +129,11 @@ TEST(SurfelSizes, TheEstimateIsTheSurfaceSeenOverTheVoxelsFace) {
   const ProbeGBuffer seen = trace_gbuffer(source, probes, 2000, {});
   EXPECT_NEAR(estimated_surfels(seen, SurfelSizes(0.25f)), 94 / 0.0625, 0.04 * 94 / 0.0625);
   EXPECT_NEAR(estimated_surfels(seen, SurfelSizes(0.5f)), 94 / 0.25, 0.04 * 94 / 0.25);
-  // Few enough: the finest everywhere. Too many: a sixth, or fewer.
+  // Few enough: the finest everywhere. Too many: a quarter, or fewer.
   EXPECT_EQ(sizes_within(seen, 0.25f, 2000).level(vec3(9)), 0);
   const SurfelSizes coarse = sizes_within(seen, 0.25f, 1200);
   EXPECT_GT(coarse.level(vec3(9)), 0);
-  EXPECT_LE(estimated_surfels(seen, coarse), 200);
+  EXPECT_LE(estimated_surfels(seen, coarse), 300);
   // Wider lamps count only where surfels near them would be coarse
   const std::vector<vec3> lamps{{2, 1.5f, 2.5f}};
   EXPECT_EQ(sizes_within(seen, 0.25f, 2000, lamps).finest(), 0.0625f);
@@ -153,10 +153,10 @@ TEST(SurfelSizes, APlainOfTenKilometresCostsLittleMoreThanOneOfAHundredMetres) {
     const ProbeGBuffer seen = trace_gbuffer(source, probes, 4000, {});
     const SurfelSizes sizes = sizes_within(seen, 0.1f, 12000);
     count[half] = estimated_surfels(seen, sizes);
-    EXPECT_LE(count[half], 2000);
+    EXPECT_LE(count[half], 3000);
     EXPECT_LE(sizes.level(vec3(2, 0, 2)), 3) << "still fine where the probes are";
   }
-  EXPECT_GT(count[50], 200) << "and not coarser than need be";
+  EXPECT_GT(count[50], 2000) << "and not coarser than need be";
 }
 
 TEST(SurfelSet, SurfelsOfSeveralSizesAreNoWiderThanTheirVoxels) {

@@ -43,6 +43,7 @@ struct BakeSettings {
   /// Surface points that keep light; none given: usual_records where probes hold every bounce, too, or a
   /// light group is baked, else 0.
   std::optional<int> records;
+  /// For as many as 150 probes; in proportion for more, up to twice as many and transport::most_records.
   int usual_records = transport::usual_records;
   double max_memory = 0;  ///< that surfels and their links may take [GB]; 0: half of the machine's
   float threshold = 0;    ///< only edges with P above it, from 0 up

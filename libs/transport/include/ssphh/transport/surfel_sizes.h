@@ -54,9 +54,9 @@ class SurfelSizes {
 double estimated_surfels(const ProbeGBuffer& gbuffer, const SurfelSizes& sizes);
 
 /// `size` [m] everywhere, halved near `small_lamps`, if that makes about `most` surfels or fewer, else as
-/// much larger far from probes and `lamps` as it takes to come down to a sixth of that (clutter makes more of
-/// them than its area tells). There surfels near lamps would be several times as large, so `lamps` may be
-/// wider.
+/// much larger far from probes and `lamps` as it takes to come down to a quarter of that (clutter makes twice
+/// as many of them as its area tells). There surfels near lamps would be several times as large, so `lamps`
+/// may be wider.
 SurfelSizes sizes_within(const ProbeGBuffer& gbuffer, float size, std::size_t most,
                          std::span<const vec3> small_lamps = {}, std::span<const vec3> lamps = {});
 
