@@ -108,7 +108,8 @@ void add_transport_options(const Command& surfels, BakeOptions& options, BakeUse
                           "it, and of as many again where those are not seen, for --weights surface; 0: "
                           "none. Default: {} for as many as 150 probes, more for more, {} at most, but none "
                           "with --operator bounce, --gen local or --max-depth below {}",
-                          transport::usual_records, 2 * transport::usual_records, rays::usual_max_depth))
+                          transport::usual_records, pipeline::most_flats * transport::usual_records,
+                          rays::usual_max_depth))
       .range(0, 1 << 16);
   surfels.flag("--fit", options.transport.fit,
                "Also fit lookup weights at the surfels and store them with the probes");

@@ -35,9 +35,8 @@ probes::LightOperator operator_of(const BakeSettings& o, std::size_t probes, boo
   return probes::LightOperator::surfel;
 }
 
-/// A furnished flat has so many probes, for which the usual records are enough; a town has more of both, but
-/// no more than so many times as many records: they take their time.
-constexpr double probes_of_a_flat = 150, most_flats = 2;
+/// A furnished flat has so many probes, for which the usual records are enough; a town has more of both.
+constexpr double probes_of_a_flat = 150;
 
 /// Records hold every bounce, so there are none unasked beside probes that are to hold fewer, unless light
 /// that is baked must be kept somewhere.
@@ -46,9 +45,9 @@ int records_of(const BakeSettings& o, std::size_t probes, bool keeps_asked) {
                             (o.op == probes::LightOperator::path && o.params.gen == probes::GenMode::full &&
                              o.params.path.max_depth >= rays::usual_max_depth);
   if (!every_bounce && !keeps_asked) return 0;
-  const double flats = std::clamp(static_cast<double>(probes) / probes_of_a_flat, 1.0, most_flats);
-  const auto most = std::max(o.usual_records, static_cast<int>(transport::most_records));
-  return std::min(static_cast<int>(flats * o.usual_records), most);
+  const double flats = std::clamp(static_cast<double>(probes) / probes_of_a_flat, 1.0, double{most_flats});
+  const double most = std::max<double>(o.usual_records, transport::most_records);
+  return static_cast<int>(std::min(flats * o.usual_records, most));
 }
 
 /// Decides on VIZ, which it returns, and refuses options that would have no effect. `keeps_asked`: the scene

@@ -104,8 +104,8 @@ TEST(Draw, ALineHasItsWidthWhereverItLies) {
   }
 }
 
-/// Pixels are of other angles in other places: rays that turn three times as far per pixel at the right as in
-/// the middle of the picture, whatever their height.
+/// Pixels are of other angles in other places: rays that turn three times as far per pixel at the right as at
+/// the left of the picture, whatever their height.
 TEST(Draw, ALineHasItsWidthWherePixelsAreOfOtherAngles) {
   const auto angle_at = [](float x) { return 0.001f * x + 0.00005f * x * x; };
   const Eye eye{[&](float x, float y) -> Ray {

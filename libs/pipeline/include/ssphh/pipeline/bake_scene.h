@@ -23,6 +23,9 @@ inline constexpr std::size_t most_probes_for_paths = 64, most_probes_for_links =
 /// Edges of a probe that VIZ by links keeps unless told otherwise: 1.2 kB each at degree 9.
 inline constexpr int default_link_neighbors = 16;
 
+/// Records take their time: a town gets no more than so many times as many as a flat.
+inline constexpr int most_flats = 2;
+
 struct BakeSettings {
   BakeSettings();  ///< of quality `good`
 
@@ -43,7 +46,8 @@ struct BakeSettings {
   /// Surface points that keep light; none given: usual_records where probes hold every bounce, too, or a
   /// light group is baked, else 0.
   std::optional<int> records;
-  /// For as many as 150 probes; in proportion for more, up to twice as many and transport::most_records.
+  /// For as many as 150 probes, a furnished flat's; in proportion for more, up to most_flats times as many
+  /// and transport::most_records.
   int usual_records = transport::usual_records;
   double max_memory = 0;  ///< that surfels and their links may take [GB]; 0: half of the machine's
   float threshold = 0;    ///< only edges with P above it, from 0 up
