@@ -24,7 +24,7 @@ std::vector<Contract> of_moved_from() {
               shading::LightSet first(scene, scene::world_matrices(scene));
               shading::LightSet second = std::move(first);
               expect_refusal([&] { first.groups(); }, {"moved from"});
-              expect_refusal([&] { first.sample(vec3(0), 0.5f, vec2(0.5f)); }, {"moved from"});
+              expect_refusal([&] { first.sample(0, vec3(0), 0.5f, vec2(0.5f)); }, {"moved from"});
               expect_refusal([&] { shading::LightSet(first, {}, {}); }, {"moved from"});
               EXPECT_EQ(second.emitter_count(), 1);
               first = std::move(second);

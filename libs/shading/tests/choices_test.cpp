@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <ssphh/scene/primitives.h>
+#include <ssphh/shading/mesh_view.h>
+
 #include "light_scenes.h"
 #include "lights/distribution.h"
 
@@ -14,7 +17,7 @@ using scene::LightType;
 /// Probability with which sample() chooses the light of a group whose samples are deltas; 0: never.
 float probability(const LightSet& lights, const vec3& from, int group) {
   for (int i = 0; i < 1000; ++i) {
-    const auto s = lights.sample(from, (static_cast<float>(i) + 0.5f) / 1000, vec2(0.5f));
+    const auto s = lights.sample(0, from, (static_cast<float>(i) + 0.5f) / 1000, vec2(0.5f));
     if (s && s->group == group) return s->pdf;
   }
   return 0;
@@ -151,7 +154,7 @@ TEST_F(Choices, UnderARowOfLampsGoToTheNearOnes) {
     const int count = 4096;
     for (int i = 0; i < count; ++i) {
       const auto s =
-          lights.sample(from, (static_cast<float>(i) + 0.5f) / static_cast<float>(count), vec2(0.5f));
+          lights.sample(0, from, (static_cast<float>(i) + 0.5f) / static_cast<float>(count), vec2(0.5f));
       ASSERT_TRUE(s);
       const vec3 estimate = s->radiance / s->pdf / static_cast<float>(count);
       sum += estimate, squares += estimate * estimate * static_cast<float>(count);
@@ -164,29 +167,22 @@ TEST_F(Choices, UnderARowOfLampsGoToTheNearOnes) {
   }
 }
 
-// Radius 2 of the scene's bounds; a lamp of power 1 gives it 1/4.
-TEST_F(Choices, BetweenNearAndDistantLightsGoByIrradiance) {
+TEST_F(Choices, OfLampsAndOfWhatIsDistantAreNone) {
+  EXPECT_EQ(make_lights(scene).sample_count(), 0);
   add_probe_lamp();
-  scene::Mesh mesh;
-  mesh.positions = {{-2, 0, 0}, {2, 0, 0}, {0, 0.1f, 0}};
-  mesh.triangles = {{0, 1, 2}};
-  scene.meshes.push_back(mesh);
-  scene.instances.push_back({0, -1, -1, {}});
-  const double radius2 = 4 + 0.05 * 0.05;
-  scene::Light& sun = add_light(scene, LightType::directional, vec3(0));
-  for (const float strength : {0.25f, 0.4f, 0.1f, 0.03f, 2.0f}) {
-    scene.lights[1].intensity = strength;
-    const double share = static_cast<double>(strength) / (static_cast<double>(strength) + 1 / radius2);
-    const LightSet lights = make_lights(scene);
-    const double distant = std::clamp(share, 0.25, 0.75);
-    EXPECT_NEAR(static_cast<double>(probability(lights, vec3(0), 1)), distant, 1e-5) << strength;
-    EXPECT_NEAR(static_cast<double>(probability(lights, vec3(0), 0)), 1 - distant, 1e-5) << strength;
+  EXPECT_EQ(make_lights(scene).sample_count(), 1);
+  add_light(scene, LightType::directional, vec3(0)).intensity = 1000;
+  const LightSet lights = make_lights(scene);
+  ASSERT_EQ(lights.sample_count(), 2);
+  for (int i = 0; i < 2; ++i) {
+    const auto s = lights.sample(i, vec3(0), 0.5f, vec2(0.5f));
+    ASSERT_TRUE(s);
+    EXPECT_EQ(s->group, i);
+    EXPECT_EQ(s->pdf, 1);
   }
-  sun.intensity = 0;
-  EXPECT_EQ(probability(make_lights(scene), vec3(0), 0), 1);
-  sun.intensity = 3;
   scene.lights[0].intensity = 0;
-  EXPECT_EQ(probability(make_lights(scene), vec3(0), 1), 1);
+  ASSERT_EQ(make_lights(scene).sample_count(), 1);
+  EXPECT_EQ(make_lights(scene).sample(0, vec3(0), 0.5f, vec2(0.5f))->group, 1);
 }
 
 // By the irradiance each gives on a facing plane, and a tenth shared out evenly.
@@ -202,6 +198,46 @@ TEST_F(Choices, AmongDistantLightsGoByIrradiance) {
   EXPECT_NEAR(static_cast<double>(probability(lights, vec3(0), 1)), (1 / all + 0.1 / 3) / 1.1, 1e-5);
   EXPECT_NEAR(static_cast<double>(probability(lights, vec3(0), 2)),
               (2 * pi_d / all + 0.1 / 3) / 1.1 / (4 * pi_d), 1e-6);
+}
+
+// A box is seen from one side of each of its faces at most: half of the samples by area would be for nothing.
+TEST_F(Choices, OfABodysTrianglesGoByTheSideThatIsSeen) {
+  for (const bool double_sided : {false, true}) {
+    scene::Scene scene;
+    scene::Mesh box = scene::make_box({-0.5f, 2, -0.5f}, {0.5f, 2.1f, 0.5f});
+    box.material = 0;
+    scene.meshes.push_back(box);
+    scene.materials.push_back(glowing(vec3(2)));
+    scene.materials[0].double_sided = double_sided;
+    scene.instances.push_back({0, -1, -1, {}});
+    const LightSet lights = make_lights(scene);
+    for (const vec3& from : {vec3(0), vec3(0.3f, 0, 0.1f), vec3(3, 1.8f, 0), vec3(1, 4, 2)}) {
+      int none = 0;
+      Pcg32 random(4);
+      for (int n = 0; n < 1000; ++n) {
+        const float u = random.uniform();
+        const auto s = lights.sample(0, from, u, random.uniform2());
+        none += s ? 0 : 1;
+        if (!s) continue;
+        // The triangle that the sample lies on says the same density
+        const vec3 at = from + s->distance * s->wi;
+        int found = 0;
+        for (std::uint32_t t = 0; t < 12; ++t) {
+          const uvec3 index = box.triangles[t];
+          const vec3 a = box.positions[index.x], b = box.positions[index.y], c = box.positions[index.z];
+          const vec3 normal = glm::normalize(glm::cross(b - a, c - a));
+          const float cosine = std::abs(glm::dot(normal, s->wi));
+          const float pdf = lights.pdf_triangle(from, 0, t, s->distance, cosine);
+          if (std::abs(glm::dot(normal, at - a)) < 1e-4f && std::abs(pdf / s->pdf - 1) < 1e-3f) ++found;
+        }
+        EXPECT_GE(found, 1) << n;
+      }
+      EXPECT_EQ(none, 0) << "back faces";
+      const vec3 up = glm::normalize(vec3(0, 2.05f, 0) - from);
+      EXPECT_TRUE(ssphh::test::mean_is(irradiance(lights, from, up),
+                                       static_cast<double>(lights.view_mesh(0, from, up)->irradiance().x)));
+    }
+  }
 }
 
 TEST(DistributionChoices, EndWhereTheLastWeightDoes) {

@@ -46,7 +46,6 @@ TEST(Defaults, OfScatteringAndLights) {
   EXPECT_EQ(point.group, 0);
   const SphereLight sphere{vec3(1), 1, vec3(2)};
   EXPECT_EQ(sphere.group, 0);
-  EXPECT_EQ(DistantLights().irradiance(), 0);
   EXPECT_EQ(DistantLights().count(), 0u);
   EXPECT_EQ(MeshView::max_triangles, 32u);
   const MeshView none(vec3(0), vec3(0, 1, 0), vec3(1), 0);

@@ -47,8 +47,10 @@ TEST(Emitters, AddUpToTheChoiceAmongThem) {
     double sum = 0, mean = 0;
     for (std::uint32_t s = 0; s < 16; ++s) {
       SampleSequence random(batch, s);
-      const float u_choice = random.next();
-      mean += received(lights.sample(vec3(0), u_choice, random.next2())) / 16;
+      for (int i = 0; i < lights.sample_count(); ++i) {
+        const float u_choice = random.next();
+        mean += received(lights.sample(i, vec3(0), u_choice, random.next2())) / 16;
+      }
     }
     for (int i = 0; i < lights.emitter_count(); ++i)
       sum += received(lights.sample_emitter(i, vec3(0), SampleSequence(hash_combine(batch, 77), 0).next2()));

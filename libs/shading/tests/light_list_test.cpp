@@ -34,8 +34,10 @@ void add(NumberList& list, const std::string& name, const std::optional<EmittedP
 /// sample(), and the densities of what rays from a place find.
 void add_choices(NumberList& list, const scene::Scene& scene, const LightSet& lights) {
   for (const vec3& x : places) {
-    for (const float choice : {0.03f, 0.17f, 0.31f, 0.44f, 0.58f, 0.69f, 0.77f, 0.86f, 0.98f})
-      add(list, "sample", lights.sample(x, choice, numbers[1]));
+    for (int i = 0; i < lights.sample_count(); ++i) {
+      for (const float choice : {0.03f, 0.17f, 0.31f, 0.44f, 0.58f, 0.69f, 0.77f, 0.86f, 0.98f})
+        add(list, "sample", lights.sample(i, x, choice, numbers[1]));
+    }
     for (int i = 0; i < static_cast<int>(scene.instances.size()); ++i) {
       for (const std::uint32_t triangle : {0u, 1u}) {
         const float pdf = lights.pdf_triangle(x, i, triangle, 1.7f, 0.6f);

@@ -76,10 +76,13 @@ inline ssphh::test::Samples irradiance(const LightSet& lights, const vec3& posit
   Pcg32 random(seed);
   ssphh::test::Samples samples;
   for (int n = 0; n < count; ++n) {
-    const float u_choice = random.uniform();
-    const auto s = lights.sample(position, u_choice, random.uniform2());
-    samples.add(s ? static_cast<double>(s->radiance.x * glm::max(glm::dot(s->wi, normal), 0.0f) / s->pdf)
-                  : 0.0);
+    double sum = 0;
+    for (int i = 0; i < lights.sample_count(); ++i) {
+      const float u_choice = random.uniform();
+      const auto s = lights.sample(i, position, u_choice, random.uniform2());
+      if (s) sum += static_cast<double>(s->radiance.x * glm::max(glm::dot(s->wi, normal), 0.0f) / s->pdf);
+    }
+    samples.add(sum);
   }
   return samples;
 }

@@ -17,7 +17,7 @@ TEST(PointLight, GivesIntensityTimesCosineOverDistanceSquared) {
   add_light(scene, LightType::point, {0, 3, 0}).intensity = 50;
   const LightSet lights = make_lights(scene);
   for (const vec3 x : {vec3(0), vec3(4, 0, 0), vec3(1, -2, 2)}) {
-    const auto s = lights.sample(x, 0.3f, vec2(0.5f));
+    const auto s = lights.sample(0, x, 0.3f, vec2(0.5f));
     ASSERT_TRUE(s);
     const vec3 d = vec3(0, 3, 0) - x;
     const float distance = glm::length(d);
@@ -33,10 +33,10 @@ TEST(PointLight, FadesTowardsItsRangeAsKhrLightsPunctualSays) {
   auto& light = add_light(scene, LightType::point, vec3(0));
   light.intensity = 8, light.range = 4;
   const LightSet lights = make_lights(scene);
-  const auto near = lights.sample({2, 0, 0}, 0, vec2(0));
+  const auto near = lights.sample(0, {2, 0, 0}, 0, vec2(0));
   ASSERT_TRUE(near);
   EXPECT_FLOAT_EQ(near->radiance.x, 8.0f / 4 * (1 - std::pow(2.0f / 4, 4.0f)));
-  EXPECT_FALSE(lights.sample({4.01f, 0, 0}, 0, vec2(0)));
+  EXPECT_FALSE(lights.sample(0, {4.01f, 0, 0}, 0, vec2(0)));
 }
 
 TEST(SpotLight, IsFullInsideNoneOutsideAndSquaredLinearBetweenItsCones) {
@@ -47,14 +47,14 @@ TEST(SpotLight, IsFullInsideNoneOutsideAndSquaredLinearBetweenItsCones) {
   const auto at_angle = [&](float angle) {
     return vec3(0, 2, 0) + vec3(std::sin(angle), -std::cos(angle), 0);
   };
-  const auto inside = lights.sample(at_angle(0.29f), 0, vec2(0));
+  const auto inside = lights.sample(0, at_angle(0.29f), 0, vec2(0));
   ASSERT_TRUE(inside);
   EXPECT_NEAR(inside->radiance.x, 10, 1e-4f);
-  const auto between = lights.sample(at_angle(0.45f), 0, vec2(0));
+  const auto between = lights.sample(0, at_angle(0.45f), 0, vec2(0));
   ASSERT_TRUE(between);
   const float t = (std::cos(0.45f) - std::cos(0.6f)) / (std::cos(0.3f) - std::cos(0.6f));
   EXPECT_NEAR(between->radiance.x, 10 * t * t, 1e-3f);
-  EXPECT_FALSE(lights.sample(at_angle(0.61f), 0, vec2(0)));
+  EXPECT_FALSE(lights.sample(0, at_angle(0.61f), 0, vec2(0)));
 }
 
 TEST(SphereLight, IrradianceIsThatOfItsDiscSeenFromOutside) {
@@ -126,7 +126,7 @@ TEST(AreaLight, MeanInverseDensityIsItsSolidAngle) {
   Samples samples;
   for (int n = 0; n < 20000; ++n) {
     const float u = random.uniform();
-    const auto s = lights.sample(vec3(0), u, random.uniform2());
+    const auto s = lights.sample(0, vec3(0), u, random.uniform2());
     ASSERT_TRUE(s);
     samples.add(1 / static_cast<double>(s->pdf));
   }
@@ -183,7 +183,7 @@ TEST(AreaLight, DensityOfAHitIsThatOfTheSample) {
   int compared = 0;
   for (int n = 0; n < 500; ++n) {
     const float u = random.uniform();
-    const auto s = lights.sample(from, u, random.uniform2());
+    const auto s = lights.sample(0, from, u, random.uniform2());
     if (!s || s->delta || std::isinf(s->distance)) continue;
     ++compared;
     // Both triangles have one area and one emission: the index does not matter
@@ -205,7 +205,7 @@ TEST(LocalLights, NoNumberBreaksAtPointsOnALight) {
   for (const vec3 x : {vec3(0), vec3(1, 0, 0), vec3(0.25f, 0, 0.25f), vec3(0.5f, 0, 0.5f), vec3(1e-8f)}) {
     for (int n = 0; n < 500; ++n) {
       const float u = random.uniform();
-      const auto s = lights.sample(x, u, random.uniform2());
+      const auto s = lights.sample(0, x, u, random.uniform2());
       if (!s) continue;
       EXPECT_TRUE(is_finite(s->radiance) && is_finite(s->wi) && std::isfinite(s->pdf) && s->pdf > 0);
       EXPECT_TRUE(std::isfinite(s->distance) && s->distance >= 0);

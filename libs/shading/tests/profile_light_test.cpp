@@ -37,7 +37,7 @@ TEST(ProfileLight, GivesAPlaneItsShareOfTheIntensityTimesCosineOverDistanceSquar
   light.profile = profile(ramp), light.color = {1, 0.5f, 0.25f}, light.intensity = 40;
   const LightSet lights = make_lights(scene);
   for (const float aside : {0.0f, 0.5f, 1.0f, 3.0f, 20.0f}) {
-    const auto s = lights.sample({aside, 0, 0}, 0.3f, vec2(0.5f));
+    const auto s = lights.sample(0, {aside, 0, 0}, 0.3f, vec2(0.5f));
     ASSERT_TRUE(s);
     EXPECT_TRUE(s->delta);
     const double d2 = 9 + static_cast<double>(aside) * static_cast<double>(aside), d = std::sqrt(d2),
@@ -48,7 +48,7 @@ TEST(ProfileLight, GivesAPlaneItsShareOfTheIntensityTimesCosineOverDistanceSquar
     EXPECT_FLOAT_EQ(e.z, 0.25f * e.x);
     EXPECT_FLOAT_EQ(s->distance, static_cast<float>(d));
   }
-  EXPECT_FALSE(lights.sample({0, 4, 0}, 0, vec2(0))) << "dark above it";
+  EXPECT_FALSE(lights.sample(0, {0, 4, 0}, 0, vec2(0))) << "dark above it";
 }
 
 TEST(ProfileLight, OfASpotIsNarrowedByItsCones) {
@@ -57,7 +57,7 @@ TEST(ProfileLight, OfASpotIsNarrowedByItsCones) {
   light.profile = profile(ramp), light.inner_cone = 0.2f, light.outer_cone = 0.5f;
   const LightSet lights = make_lights(scene);
   const auto at = [&](float angle) {
-    const auto s = lights.sample({2 * std::tan(angle), 0, 0}, 0, vec2(0));
+    const auto s = lights.sample(0, {2 * std::tan(angle), 0, 0}, 0, vec2(0));
     return s ? s->radiance.x * 4 / (std::cos(angle) * std::cos(angle)) : 0;
   };
   const float ramp_share = (std::cos(0.4f) - std::cos(0.5f)) / (std::cos(0.2f) - std::cos(0.5f));
@@ -74,7 +74,7 @@ TEST(ProfileLight, IsDimmedAndMovedByItsState) {
   std::vector<scene::LightState> states = scene::lighting_at(scene, 0).lights;
   states[0].intensity = 7;
   states[0].world[3].y = 2;
-  const auto s = LightSet(base, world, states).sample(vec3(0), 0, vec2(0));
+  const auto s = LightSet(base, world, states).sample(0, vec3(0), 0, vec2(0));
   ASSERT_TRUE(s);
   EXPECT_FLOAT_EQ(s->radiance.x, 7 / 4.0f);
 }

@@ -31,7 +31,7 @@ TEST(SphlLight, ALobeGivesAPlaneItsIntensityTimesCosineOverDistanceSquared) {
   const LightSet lights = make_lights(scene);
   const double kappa = std::log(2.0) / (1 - std::cos(0.6));
   for (const float aside : {0.0f, 0.5f, 1.0f, 2.0f, 4.0f}) {
-    const auto s = lights.sample({aside, 0, 0}, 0.3f, vec2(0.5f));
+    const auto s = lights.sample(0, {aside, 0, 0}, 0.3f, vec2(0.5f));
     ASSERT_TRUE(s);
     EXPECT_TRUE(s->delta);
     const double d = std::hypot(3.0, static_cast<double>(aside)), cosine = 3 / d;
@@ -51,13 +51,13 @@ TEST(SphlLight, ACosineLobeIsThatOfASmallSurface) {
       scene::lobe_emission(scene::Lobe::cosine, {0, 0, -1}, 0)};
   const LightSet lights = make_lights(scene);
   for (const float aside : {0.0f, 1.0f, 2.0f}) {
-    const auto s = lights.sample({aside, 0, 0}, 0, vec2(0));
+    const auto s = lights.sample(0, {aside, 0, 0}, 0, vec2(0));
     ASSERT_TRUE(s);
     const float d2 = 4 + aside * aside;
     EXPECT_NEAR(s->radiance.x, 2 / std::sqrt(d2) / d2,
                 0.015f * 0.25f);  // of the bands above 10, 1.0 % on the axis
   }
-  const auto behind = lights.sample({0, 4, 0}, 0, vec2(0));
+  const auto behind = lights.sample(0, {0, 4, 0}, 0, vec2(0));
   EXPECT_TRUE(!behind || behind->radiance.x < 0.015f * 0.25f);
 }
 
@@ -67,12 +67,12 @@ TEST(SphlLight, IsNoBrighterWithinItsRadius) {
       scene::lobe_emission(scene::Lobe::uniform, {0, 0, -1}, 0)};
   const LightSet lights = make_lights(scene);
   for (const float d : {0.5f, 0.1f, 0.001f}) {
-    const auto s = lights.sample({0, -d, 0}, 0, vec2(0));
+    const auto s = lights.sample(0, {0, -d, 0}, 0, vec2(0));
     ASSERT_TRUE(s);
     EXPECT_FLOAT_EQ(s->radiance.x, 4);
     EXPECT_EQ(s->distance, 0);
   }
-  EXPECT_FALSE(lights.sample(vec3(0), 0, vec2(0)));
+  EXPECT_FALSE(lights.sample(0, vec3(0), 0, vec2(0)));
 }
 
 TEST(SphlLight, TurnsWithItsNodeWhoseScaleDoesNotCount) {
@@ -81,7 +81,7 @@ TEST(SphlLight, TurnsWithItsNodeWhoseScaleDoesNotCount) {
   light.emission.frames = {scene::lobe_emission(scene::Lobe::beam, {0, 0, -1}, 0.5f)};
   scene.nodes[0].local.scale = {2, 7, 0.3f};
   const LightSet lights = make_lights(scene);
-  const auto ahead = lights.sample({2, 0, 0}, 0, vec2(0)), aside = lights.sample({0, 0, 2}, 0, vec2(0));
+  const auto ahead = lights.sample(0, {2, 0, 0}, 0, vec2(0)), aside = lights.sample(0, {0, 0, 2}, 0, vec2(0));
   ASSERT_TRUE(ahead);
   EXPECT_NEAR(ahead->radiance.x, 0.25f, 1e-4f);
   EXPECT_TRUE(!aside || aside->radiance.x < 1e-3f);
@@ -95,8 +95,7 @@ TEST(SphlLight, ChangesWithTimeAndWithItsState) {
   light.emission.rate = 2;
   const auto world = scene::world_matrices(scene);
   const auto red = [](const LightSet& lights) {
-    const auto s = lights.sample({0, -1, 0}, 0, vec2(0));
-    return s ? s->radiance.x : 0;
+    return lights.empty() ? 0 : lights.sample(0, {0, -1, 0}, 0, vec2(0))->radiance.x;
   };
   EXPECT_EQ(red(LightSet(scene, world)), 0);
   EXPECT_FLOAT_EQ(red(LightSet(scene, world, 0.125f)), 0.25f);

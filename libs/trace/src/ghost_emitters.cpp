@@ -4,7 +4,7 @@
 
 namespace ssphh::trace {
 
-std::optional<shading::LightSample> GhostEmitters::sample(const PathVertex& vertex, float u_choice,
+std::optional<shading::LightSample> GhostEmitters::sample(int, const PathVertex& vertex, float u_choice,
                                                           const vec2& u) const {
   const float total = total_weight(vertex);
   if (!(total > 0)) return std::nullopt;

@@ -40,7 +40,9 @@ class GhostEmitters {
   template <class Visit>
   void surface(const PathVertex&, const Ray&, const Hit&, const shading::Surface&, const Visit&) const {}
 
-  std::optional<shading::LightSample> sample(const PathVertex& vertex, float u_choice, const vec2& u) const;
+  int sample_count(const PathVertex&) const { return 1; }
+  std::optional<shading::LightSample> sample(int, const PathVertex& vertex, float u_choice,
+                                             const vec2& u) const;
 
   bool found_by_rays(const PathVertex&) const { return true; }
   bool may_meet(const PathVertex&, const Ray& ray) const {

@@ -13,7 +13,7 @@ namespace ssphh::trace {
 /// By which scattered rays count more than their density says: of samples of a wide sky most miss the pane.
 inline constexpr float rays_count = 4;
 
-/// What arrives at a vertex of a light sample that a pane mirrors, and is reflected there as `reflect(wi)`
+/// What arrives at a vertex of light sample i that a pane mirrors, and is reflected there as `reflect(wi)`
 /// tells (value and density). `alone`: scattered rays are not counted.
 struct PaneEvent {
   int group;
@@ -21,7 +21,7 @@ struct PaneEvent {
   vec3 emission;  ///< direction in which the light left its emitter
 };
 template <class Emitters, class Reflect>
-std::optional<PaneEvent> next_event_by_pane(const PosedGeometry& scene, const Emitters& emitters,
+std::optional<PaneEvent> next_event_by_pane(const PosedGeometry& scene, const Emitters& emitters, int i,
                                             const PaneMirrors& panes, const PathVertex& vertex,
                                             const vec3& start, const PathSampler::Vertex& random, bool alone,
                                             const Passage& passage, RayTask& task, const Reflect& reflect) {
@@ -29,7 +29,7 @@ std::optional<PaneEvent> next_event_by_pane(const PosedGeometry& scene, const Em
   if (!pane) return {};
   PathVertex image = vertex;
   image.position = pane->mirrored(vertex.position), image.normal = pane->mirrored_direction(vertex.normal);
-  auto toward = emitters.sample(image, random.light, random.point);
+  auto toward = emitters.sample(i, image, random.light, random.point);
   // Lamps without extent light nothing by way of mirrors: scattered rays cannot find them there.
   if (!toward || toward->delta || !(toward->pdf > 0)) return {};
   const vec3 emission = -toward->wi;

@@ -104,7 +104,8 @@ inline bool choose_glass(shading::Surface& surface, const vec3& wo, const PathSa
 ///                                                 (infinite: it escapes); visit(group, radiance, light_pdf,
 ///                                                 emission)
 ///   surface(vertex, ray, hit, surface, visit)     the same for the surface it hits
-///   sample(vertex, u_choice, u)                   optional<shading::LightSample>
+///   sample_count(vertex)                          samples that give all light at a vertex
+///   sample(i, vertex, u_choice, u)                optional<shading::LightSample>, the i-th of them
 ///   found_by_rays(vertex)                         whether rays that leave it can meet any light
 ///   may_meet(vertex, ray)                         whether this one might, were nothing in its way
 /// `Visitor` receives first_hit(surface, ray_origin, ray, hit), of the first surface that the path does not
@@ -194,29 +195,30 @@ void trace_path(const PosedGeometry& scene, const Emitters& emitters, Ray ray, c
     const bool is_glass = surface.glass.share > 0;
 
     // Sample direct light.
-    if (options.strategy != Strategy::bsdf_only) {
-      const auto toward = emitters.sample(vertex, random.light, random.point);
+    const bool samples_lights = options.strategy != Strategy::bsdf_only;
+    const bool alone = options.strategy == Strategy::nee_only;
+    const int light_samples = samples_lights ? emitters.sample_count(vertex) : 0;
+    const Passage passage =
+        sampler.passage(scene, vertices, true, options.looks_up && !looks_up, options.paths);
+    for (int i = 0; i < light_samples; ++i) {
+      const PathSampler::Vertex u = i == 0 ? random : sampler.light(i).vertex(vertices);
+      const auto toward = emitters.sample(i, vertex, u.light, u.point);
       const float side = toward ? glm::dot(toward->wi, vertex.normal) : 0;
-      if (toward && toward->pdf > 0 && (side > 0 || (is_glass && side < 0))) {
-        const vec3 wi = frame.to_local(toward->wi);
-        shading::BsdfValue f;
-        if ((wi.z > 0) == (side > 0)) f = scattering.eval(wi);
-        const vec3& start = side > 0 ? ray_origin : beyond_surface;
-        const Passage passage =
-            sampler.passage(scene, vertices, true, options.looks_up && !looks_up, options.paths);
-        const vec3 arrives = next_event(scene, *toward, light.throughput * f.value * toward->radiance,
-                                        options.strategy == Strategy::nee_only ? 0 : f.pdf, start,
-                                        vertex.position, passage, task);
-        if (max_component(arrives) > 0) visitor.add(depth + 1, toward->group, arrives, -toward->wi);
-      }
+      if (!toward || !(toward->pdf > 0) || !(side > 0 || (is_glass && side < 0))) continue;
+      const vec3 wi = frame.to_local(toward->wi);
+      shading::BsdfValue f;
+      if ((wi.z > 0) == (side > 0)) f = scattering.eval(wi);
+      const vec3 arrives =
+          next_event(scene, *toward, light.throughput * f.value * toward->radiance, alone ? 0 : f.pdf,
+                     side > 0 ? ray_origin : beyond_surface, vertex.position, passage, task);
+      if (max_component(arrives) > 0) visitor.add(depth + 1, toward->group, arrives, -toward->wi);
     }
     const bool by_panes = options.panes && !options.looks_up && options.paths == rays::PathSet::all;
-    if (by_panes && options.strategy != Strategy::bsdf_only && depth + 2 <= options.max_depth) {
-      const PathSampler own = sampler.by_panes();
+    for (int i = 0; by_panes && depth + 2 <= options.max_depth && i < light_samples; ++i) {
+      const PathSampler own = sampler.by_panes().light(i);
       const auto event =
-          next_event_by_pane(scene, emitters, *options.panes, vertex, ray_origin, own.vertex(vertices),
-                             options.strategy == Strategy::nee_only, own.passage(scene, vertices, true), task,
-                             [&](const vec3& wi) {
+          next_event_by_pane(scene, emitters, i, *options.panes, vertex, ray_origin, own.vertex(vertices),
+                             alone, own.passage(scene, vertices, true), task, [&](const vec3& wi) {
                                const vec3 local = frame.to_local(wi);
                                return local.z > 0 ? scattering.eval(local) : shading::BsdfValue{};
                              });
@@ -225,11 +227,12 @@ void trace_path(const PosedGeometry& scene, const Emitters& emitters, Ray ray, c
     if constexpr (requires { emitters.mirrored(); }) {
       if (vertex.mirrored != vec3(0)) {
         const MirrorLobe lobe(surface, -ray.direction);
-        const PathSampler own = sampler.mirrored();
-        const PathSampler::Vertex u = own.vertex(vertices);
         const float chance = std::min(lobe.rays(), 1.0f);
-        const auto toward = emitters.sample_mirrored(vertex, u.light, u.point);
-        if (toward && toward->pdf > 0 && u.roulette < chance) {
+        for (int i = 0; i < emitters.mirrored_sample_count(); ++i) {
+          const PathSampler own = sampler.mirrored().light(i);
+          const PathSampler::Vertex u = own.vertex(vertices);
+          const auto toward = emitters.sample_mirrored(i, vertex, u.light, u.point);
+          if (!toward || !(toward->pdf > 0) || !(u.roulette < chance)) continue;
           const vec3 reflected = vertex.mirrored * lobe.eval(toward->wi).value / chance;
           const vec3 arrives = next_event(scene, *toward, light.throughput * reflected * toward->radiance,
                                           scattering.eval(frame.to_local(toward->wi)).pdf, ray_origin,

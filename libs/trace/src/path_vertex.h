@@ -30,6 +30,10 @@ struct PathSampler {
   vec2 glass(int n) const {
     return sample_pairs(hash_combine(seed, 0x5eed61a550000000 + static_cast<std::uint64_t>(n)), index)[0];
   }
+  /// For light sample i of a vertex.
+  PathSampler light(int i) const {
+    return i == 0 ? *this : PathSampler{hash_combine(seed, 0xd157a47), index};
+  }
   /// For what a surface with a lookup mirrors.
   PathSampler mirrored() const { return {hash_combine(seed, 0x3e1f0110), index}; }
   /// For what panes mirror.

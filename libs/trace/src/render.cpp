@@ -127,16 +127,17 @@ class PixelSums {
                       .normal = surface.geometric_normal,
                       .looked_up = true,
                       .followed = true};
-    if (asked_.emitters.held()) {
-      const auto toward = asked_.emitters.sample(vertex, random.light, random.point);
-      if (toward && toward->pdf > 0) {
-        const shading::BsdfValue f = lobe.eval(toward->wi);
-        add(1, toward->group,
-            next_event(asked_.data.geometry, *toward, throughput * f.value * toward->radiance, f.pdf,
-                       ray_origin, vertex.position, sampler.passage(asked_.data.geometry, 0, true, true),
-                       task_),
-            -toward->wi);
-      }
+    const int light_samples = asked_.emitters.held() ? asked_.emitters.sample_count(vertex) : 0;
+    for (int i = 0; i < light_samples; ++i) {
+      const PathSampler::Vertex u = i == 0 ? random : sampler.light(i).vertex(0);
+      const auto toward = asked_.emitters.sample(i, vertex, u.light, u.point);
+      if (!toward || !(toward->pdf > 0)) continue;
+      const shading::BsdfValue f = lobe.eval(toward->wi);
+      add(1, toward->group,
+          next_event(asked_.data.geometry, *toward, throughput * f.value * toward->radiance, f.pdf,
+                     ray_origin, vertex.position, sampler.passage(asked_.data.geometry, 0, true, true),
+                     task_),
+          -toward->wi);
     }
     const auto sent = lobe.sample(random.lobe, random.direction);
     if (!sent) return;

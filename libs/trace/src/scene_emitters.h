@@ -50,13 +50,16 @@ class SceneEmitters {
     });
   }
 
-  std::optional<shading::LightSample> sample(const PathVertex& vertex, float u_choice, const vec2& u) const {
-    return lights_at(vertex).sample(vertex.position, u_choice, u);
+  int sample_count(const PathVertex& vertex) const { return lights_at(vertex).sample_count(); }
+  std::optional<shading::LightSample> sample(int i, const PathVertex& vertex, float u_choice,
+                                             const vec2& u) const {
+    return lights_at(vertex).sample(i, vertex.position, u_choice, u);
   }
   /// Of those that surfaces with a lookup mirror; there are some.
-  std::optional<shading::LightSample> sample_mirrored(const PathVertex& vertex, float u_choice,
+  int mirrored_sample_count() const { return mirrored_->sample_count(); }
+  std::optional<shading::LightSample> sample_mirrored(int i, const PathVertex& vertex, float u_choice,
                                                       const vec2& u) const {
-    return mirrored_->sample(vertex.position, u_choice, u);
+    return mirrored_->sample(i, vertex.position, u_choice, u);
   }
 
   bool found_by_rays(const PathVertex& vertex) const {

@@ -44,27 +44,28 @@ void trace_from(const TracerData& data, const SceneEmitters& emitters, const ray
   const vec3 start = above_surface(point.position, point.normal, gap);
   PathVertex vertex{point.position, point.normal};
   SampleSequence random = sampler.camera();
-  const float u_light = random.next();
-  const vec2 u_point = random.next2(), u_direction = random.next2();
+  PathSampler::Vertex u{};
+  u.light = random.next(), u.point = random.next2();
+  const vec2 u_direction = random.next2();
+  const int light_samples = emitters.sample_count(vertex);
 
   // Sample direct light.
-  const auto light = emitters.sample(vertex, u_light, u_point);
-  if (light && light->pdf > 0) {
-    const float cosine = glm::dot(light->wi, point.normal);
-    const vec3 through = cosine > 0
-                             ? data.geometry.transmittance(shadow_ray(start, point.position, *light),
-                                                           sampler.passage(data.geometry, 0, true), task)
-                             : vec3(0);
-    if (max_component(through) > 0) {
-      const float weight = light->delta ? 1 : shading::power_heuristic(light->pdf, cosine / pi);
-      sums.scale = 1;
-      sums.add(1, light->group, through * light->radiance * (cosine * weight / light->pdf), -light->wi);
-    }
+  for (int i = 0; i < light_samples; ++i) {
+    if (i > 0) u = sampler.light(i).vertex(0);
+    const auto light = emitters.sample(i, vertex, u.light, u.point);
+    const float cosine = light && light->pdf > 0 ? glm::dot(light->wi, point.normal) : 0;
+    if (!(cosine > 0)) continue;
+    const vec3 through = data.geometry.transmittance(shadow_ray(start, point.position, *light),
+                                                     sampler.passage(data.geometry, 0, true), task);
+    if (!(max_component(through) > 0)) continue;
+    const float weight = light->delta ? 1 : shading::power_heuristic(light->pdf, cosine / pi);
+    sums.scale = 1;
+    sums.add(1, light->group, through * light->radiance * (cosine * weight / light->pdf), -light->wi);
   }
-  if (options.panes && options.max_depth >= 2) {
-    const PathSampler own = sampler.by_panes();
+  for (int i = 0; options.panes && options.max_depth >= 2 && i < light_samples; ++i) {
+    const PathSampler own = sampler.by_panes().light(i);
     const auto event =
-        next_event_by_pane(data.geometry, emitters, *options.panes, vertex, start, own.vertex(0), false,
+        next_event_by_pane(data.geometry, emitters, i, *options.panes, vertex, start, own.vertex(0), false,
                            own.passage(data.geometry, 0, true), task, [&](const vec3& wi) {
                              const float cosine = std::max(glm::dot(wi, point.normal), 0.0f);
                              return shading::BsdfValue{vec3(cosine), cosine / pi};

@@ -193,7 +193,7 @@ TEST(Ghost, BallsAreChosenByTheLightThatTheyMayGive) {
   constexpr int choices = 100000;
   std::array<int, 4> chosen{};
   for (int i = 0; i < choices; ++i) {
-    const auto sample = balls.sample(floor, (static_cast<float>(i) + 0.5f) / choices, vec2(0.5f));
+    const auto sample = balls.sample(0, floor, (static_cast<float>(i) + 0.5f) / choices, vec2(0.5f));
     ASSERT_TRUE(sample);
     ++chosen[sample->group];
   }

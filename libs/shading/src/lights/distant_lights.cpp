@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace ssphh::shading {
 namespace {
@@ -56,10 +57,9 @@ void DistantLights::divide_choices() {
   for (const DirectionalLight& light : directional_) power.push_back(luminance(light.irradiance));
   for (const DiscLight& light : discs_) power.push_back(luminance(light.irradiance));
   if (environment_) power.push_back(environment_->mean_irradiance());
-  irradiance_ = 0;
-  for (const float p : power) irradiance_ += p;
+  const float all = std::accumulate(power.begin(), power.end(), 0.0f);
   // A share for each, so that the sky is not lost beside the sun
-  for (float& p : power) p += p > 0 ? 0.1f * irradiance_ / static_cast<float>(power.size()) : 0.0f;
+  for (float& p : power) p += p > 0 ? 0.1f * all / static_cast<float>(power.size()) : 0.0f;
   choice_.assign(power);
 }
 

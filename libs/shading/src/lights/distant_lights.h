@@ -98,10 +98,6 @@ class DistantLights {
   DistantLights without(std::span<const int> groups) const;
 
   bool empty() const { return choice_.empty(); }
-  /// Sum of the irradiances on facing planes (luminance).
-  float irradiance() const { return irradiance_; }
-
-  /// pdf without the probability to choose a distant light at all.
   std::optional<LightSample> sample(float u_choice, const vec2& u) const;
 
   /// Those that a ray can find: discs, then the environment.
@@ -127,7 +123,6 @@ class DistantLights {
   std::shared_ptr<const EnvironmentLight> environment_;
   std::vector<float> power_;  ///< scratch
   Distribution choice_;       ///< over directional, discs, environment in this order
-  float irradiance_ = 0;
 };
 
 }  // namespace ssphh::shading

@@ -38,4 +38,17 @@ Distribution::Choice Distribution::sample(float u) const {
   return {index, std::clamp((u - cdf_[index]) / share, 0.0f, below_one), share};
 }
 
+Distribution::Choice choose_weighted(std::span<const float> weights, float total, float u) {
+  const float at = u * total;
+  std::size_t chosen = 0;
+  float below = 0, next = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    if (!(weights[i] > 0)) continue;
+    chosen = i, below = next, next += weights[i];
+    if (at < next) break;  // else rounding at the end of the sum falls to the last one
+  }
+  const float w = weights[chosen];
+  return {chosen, glm::clamp((at - below) / w, 0.0f, 0x1.fffffep-1f), w / total};
+}
+
 }  // namespace ssphh::shading

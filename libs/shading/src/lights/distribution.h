@@ -34,4 +34,7 @@ class Distribution {
   std::vector<float> cdf_;
 };
 
+/// A choice with probabilities proportional to `weights`, none negative, whose sum is `total` > 0.
+Distribution::Choice choose_weighted(std::span<const float> weights, float total, float u);
+
 }  // namespace ssphh::shading

@@ -18,19 +18,19 @@ const std::vector<std::string>& LightSet::groups() const {
   return data_->groups;
 }
 
-std::optional<LightSample> LightSet::sample(const vec3& position, float u_choice, const vec2& u) const {
+int LightSet::sample_count() const {
+  return (data_->tree.empty() ? 0 : 1) + (data_->distant.empty() ? 0 : 1);
+}
+
+std::optional<LightSample> LightSet::sample(int i, const vec3& position, float u_choice,
+                                            const vec2& u) const {
+  require(i >= 0 && i < sample_count(), "light set", "there is no sample of that index");
   const Data& d = *data_;
-  if (u_choice < d.distant_probability) {
-    auto s = d.distant.sample(u_choice / d.distant_probability, u);
-    if (s) s->pdf *= d.distant_probability;
-    return s;
-  }
-  if (d.tree.empty()) return std::nullopt;
-  const float any_local = 1 - d.distant_probability;
-  const auto choice = d.choose_local(position, (u_choice - d.distant_probability) / any_local);
+  if (i > 0 || d.tree.empty()) return d.distant.sample(u_choice, u);
+  const auto choice = d.choose_local(position, u_choice);
   if (!(choice.probability > 0)) return std::nullopt;
   auto s = d.sample(choice.index, position, choice.u, u);
-  if (s) s->pdf *= any_local * choice.probability;
+  if (s) s->pdf *= choice.probability;
   return s;
 }
 
@@ -151,9 +151,7 @@ int LightSet::distant_count() const {
 }
 
 std::optional<EmitterHit> LightSet::distant(int i, const vec3& direction) const {
-  auto hit = data_->distant.hit(i, direction);
-  if (hit) hit->pdf *= data_->distant_probability;
-  return hit;
+  return data_->distant.hit(i, direction);
 }
 
 }  // namespace ssphh::shading

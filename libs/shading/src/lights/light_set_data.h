@@ -21,7 +21,6 @@ inline constexpr float uniform_share = 0.2f;
 
 struct LightSet::Data {
   const scene::Scene* scene = nullptr;
-  float scene_radius = 0;
   std::vector<std::string> groups;
   std::vector<PosedLight> lights;  ///< of the scene, as they are now
   std::vector<PointLight> points;
@@ -35,7 +34,6 @@ struct LightSet::Data {
   DistantLights distant;
   std::vector<LightTree::Light> tree_lights;  ///< scratch
   LightTree tree;                             ///< local lights: points, spheres, meshes in this order
-  float distant_probability = 0;              ///< to choose among the distant lights
 
   std::size_t local_count() const { return points.size() + spheres.size() + meshes.size(); }
 
@@ -43,7 +41,7 @@ struct LightSet::Data {
   void add_lights();
   void add_meshes(const std::vector<mat4>& world, const Data* base);
   void add_flat_lamps();
-  void divide_choices();
+  void grow_tree();
 
   scene::Bounds bounds(std::size_t i) const {
     if (i < points.size())
@@ -96,27 +94,17 @@ struct LightSet::Data {
 
   float local_probability(std::size_t light, const vec3& from) const {
     const LightTree::Leaf leaf = tree.leaf_of(light, from);
-    const float any = (1 - distant_probability) * leaf.probability;
     const auto i = std::ranges::lower_bound(leaf.lights, light) - leaf.lights.begin();
     Weights probability;
-    return weigh(leaf.lights, from, probability) ? any * probability[i] : 0;
+    return weigh(leaf.lights, from, probability) ? leaf.probability * probability[i] : 0;
   }
 
   Distribution::Choice choose_local(const vec3& from, float u) const {
     const auto [leaf, leaf_u] = tree.choose(from, u);
     Weights probability;
     if (!weigh(leaf.lights, from, probability)) return {0, 0, 0};
-    std::size_t chosen = 0;
-    float below = 0;
-    for (std::size_t i = 0; i < leaf.lights.size(); ++i) {
-      if (!(probability[i] > 0)) continue;
-      chosen = i;
-      if (leaf_u < below + probability[i]) break;
-      below += i + 1 < leaf.lights.size() ? probability[i] : 0;
-    }
-    const float p = probability[chosen];
-    return {leaf.lights[chosen], glm::clamp((leaf_u - below) / p, 0.0f, 0x1.fffffep-1f),
-            leaf.probability * p};
+    const auto c = choose_weighted(std::span(probability).first(leaf.lights.size()), 1, leaf_u);
+    return {leaf.lights[c.index], c.u, leaf.probability * c.probability};
   }
 };
 

@@ -54,8 +54,7 @@ LightSet::LightSet(const scene::Scene& scene, const std::vector<mat4>& world, fl
     environment = std::make_shared<const EnvironmentLight>(*scene.environment, group);
   }
   d.distant.assign(d.lights, std::move(environment));
-  if (!d.distant.empty() && d.local_count() > 0) d.scene_radius = scene::world_bounds(scene, world).radius();
-  d.divide_choices();
+  d.grow_tree();
 }
 
 LightSet::LightSet(const LightSet& base, const std::vector<mat4>& world,
@@ -63,7 +62,6 @@ LightSet::LightSet(const LightSet& base, const std::vector<mat4>& world,
     : data_(std::make_unique<Data>()) {
   Data& d = *data_;
   d.scene = base.data_->scene;
-  d.scene_radius = base.data_->scene_radius;
   d.groups = base.data_->groups;
   d.lights = base.data_->lights;
   d.flat_lamps = base.data_->flat_lamps;
@@ -87,7 +85,7 @@ void LightSet::pose(const LightSet& base, const std::vector<mat4>& world,
   d.add_flat_lamps();
   d.distant.assign(d.lights, environment_light(base.data_->distant.environment(), d.distant.environment(),
                                                *d.scene, surroundings));
-  d.divide_choices();
+  d.grow_tree();
 }
 
 void LightSet::Data::read_lights() {
@@ -173,23 +171,10 @@ void LightSet::Data::add_flat_lamps() {
   }
 }
 
-/// Divides the samples between distant and local lights by the irradiance they give, neither below a quarter.
-void LightSet::Data::divide_choices() {
+void LightSet::Data::grow_tree() {
   tree_lights.clear();
-  float total = 0;
-  for (std::size_t i = 0; i < local_count(); ++i) {
-    tree_lights.push_back({bounds(i), power(i)});
-    total += tree_lights.back().power;
-  }
+  for (std::size_t i = 0; i < local_count(); ++i) tree_lights.push_back({bounds(i), power(i)});
   tree.assign(tree_lights);
-  if (distant.empty()) {
-    distant_probability = 0;
-  } else if (tree.empty()) {
-    distant_probability = 1;
-  } else {
-    const float local = scene_radius > 0 ? total / (scene_radius * scene_radius) : distant.irradiance();
-    distant_probability = glm::clamp(distant.irradiance() / (distant.irradiance() + local), 0.25f, 0.75f);
-  }
 }
 
 LightSet::LightSet() : data_(std::make_unique<Data>()) {}
@@ -214,7 +199,7 @@ LightSet LightSet::without(std::span<const int> groups) const {
   for (std::size_t i = data_->flat_from; i < data_->meshes.size(); ++i)
     if (!is_one(data_->meshes[i]->group())) d.meshes.push_back(data_->meshes[i]);
   d.distant = d.distant.without(groups);
-  d.divide_choices();
+  d.grow_tree();
   return rest;
 }
 

@@ -43,7 +43,7 @@ MeshLight::MeshLight(const scene::Scene* scene, std::shared_ptr<const Body> body
     const float length = glm::length(n);
     const bool usable = length > 0 && std::isfinite(length);
     triangles_.push_back(
-        {p0, p1 - p0, p2 - p0, usable ? n / length : vec3(0), usable ? 0.5f * length : 0.0f});
+        {p0, p1 - p0, p2 - p0, usable ? n / length : vec3(0), usable ? 0.5f * length : 0.0f, 0});
     if (usable) bounds_.add(p0), bounds_.add(p1), bounds_.add(p2);
 
     // Mean emission: of a texture at a few points; never quite zero, for what lies between them
@@ -58,8 +58,10 @@ MeshLight::MeshLight(const scene::Scene* scene, std::shared_ptr<const Body> body
       }
       mean = 0.95f * sum / points + 0.05f * mean;
     }
-    weights.push_back(mean * triangles_.back().area);
-    strength_ += usable ? weights.back() : 0.0f;
+    Triangle& t = triangles_.back();
+    t.strength = mean * t.area;
+    weights.push_back(t.strength);
+    strength_ += t.strength;
   }
   choice_ = Distribution(weights);
   if (choice_.empty()) return;
@@ -67,6 +69,7 @@ MeshLight::MeshLight(const scene::Scene* scene, std::shared_ptr<const Body> body
   extent2_ = bounds_.radius() * bounds_.radius();
 
   // Find out whether all lie in one plane
+  by_view_ = triangles_.size() <= MeshView::max_triangles;
   if (material_->double_sided) return;
   std::optional<Triangle> first;
   for (const Triangle& t : triangles_) {
@@ -77,6 +80,30 @@ MeshLight::MeshLight(const scene::Scene* scene, std::shared_ptr<const Body> body
     if (tilt > 1e-6f || height > 1e-4f * bounds_.radius()) return;
   }
   facing_ = first->normal;
+  by_view_ = false;
+}
+
+float MeshLight::weigh(const vec3& from, Weights& weights) const {
+  float total = 0;
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    const Triangle& t = triangles_[i];
+    const vec3 d = from - (t.p0 + (t.e1 + t.e2) / 3.0f);
+    const float distance2 = glm::dot(d, d) + t.area;
+    float height = glm::dot(from - t.p0, t.normal);
+    if (material_->double_sided) height = std::abs(height);
+    const bool lit = t.strength > 0 && (material_->double_sided || height > 0);
+    weights[i] = lit ? t.strength * (0.1f + 0.9f * height / std::sqrt(distance2)) / distance2 : 0;
+    total += weights[i];
+  }
+  return total;
+}
+
+Distribution::Choice MeshLight::choose(const vec3& from, float u) const {
+  if (!by_view_) return choice_.sample(u);
+  Weights weights;
+  const float total = weigh(from, weights);
+  if (!(total > 0 && std::isfinite(total))) return {0, 0, 0};
+  return choose_weighted(std::span(weights).first(triangles_.size()), total, u);
 }
 
 vec3 MeshLight::radiance(std::size_t triangle, const vec2& barycentric) const {
@@ -88,16 +115,17 @@ vec3 MeshLight::radiance(std::size_t triangle, const vec2& barycentric) const {
 }
 
 std::optional<LightSample> MeshLight::sample(const vec3& from, float u_choice, const vec2& u) const {
-  return sample(from, choice_.sample(u_choice), u);
+  return sample(from, choose(from, u_choice), u);
 }
 
 std::optional<LightSample> MeshLight::sample(const vec3& from, const vec2& u) const {
-  const Distribution::Choice choice = choice_.sample(u.x);
+  const Distribution::Choice choice = choose(from, u.x);
   return sample(from, choice, vec2(choice.u, u.y));
 }
 
 std::optional<LightSample> MeshLight::sample(const vec3& from, const Distribution::Choice& choice,
                                              const vec2& u) const {
+  if (!(choice.probability > 0)) return std::nullopt;
   const Triangle& triangle = triangles_[choice.index];
   const vec2 b = square_to_triangle(u);
   const vec3 d = triangle.p0 + b.x * triangle.e1 + b.y * triangle.e2 - from;
@@ -127,7 +155,15 @@ float MeshLight::pdf(const vec3& from, std::uint32_t triangle, float distance, f
   const Triangle& t = triangles_[triangle];
   if (!(t.area > 0 && cos_light > 0)) return 0;
   if (!material_->double_sided && !(glm::dot(from - t.p0, t.normal) > 0)) return 0;
-  return choice_.probability(triangle) * distance * distance / (t.area * cos_light);
+  float chance = 0;
+  if (by_view_) {
+    Weights weights;
+    const float total = weigh(from, weights);
+    if (total > 0 && std::isfinite(total)) chance = weights[triangle] / total;
+  } else {
+    chance = choice_.probability(triangle);
+  }
+  return chance * distance * distance / (t.area * cos_light);
 }
 
 std::optional<EmitterHit> MeshLight::intersect(const vec3& origin, const vec3& direction,

@@ -1,6 +1,8 @@
 #pragma once
-/// An emissive instance, or a flat lamp: its triangles are sampled by area, weighted by their mean emission.
+/// An emissive instance, or a flat lamp: its triangles are sampled by area, weighted by their mean emission;
+/// of few that face several ways, by what each brings to the point.
 
+#include <array>
 #include <memory>
 
 #include <ssphh/shading/lights.h>
@@ -48,6 +50,7 @@ class MeshLight {
     vec3 p0, e1, e2;
     vec3 normal;  ///< unit, front side
     float area;
+    float strength;  ///< ∫ luminance of emission dA
   };
   MeshLight(const scene::Scene* scene, std::shared_ptr<const Body> body, const scene::Mesh& mesh,
             const scene::Material& material, const mat4& placed, const mat4& world, int group);
@@ -55,6 +58,11 @@ class MeshLight {
   MeshLight(std::shared_ptr<const Body> body, const mat4& placed, const mat4& world, int group)
       : MeshLight(nullptr, body, body->mesh, body->material, placed, world, group) {}
 
+  using Weights = std::array<float, MeshView::max_triangles>;
+
+  /// What each triangle brings to a point, about, and in all; zero behind those that emit to their front.
+  float weigh(const vec3& from, Weights& weights) const;
+  Distribution::Choice choose(const vec3& from, float u) const;
   vec3 radiance(std::size_t triangle, const vec2& barycentric) const;
   std::optional<LightSample> sample(const vec3& from, const Distribution::Choice& choice,
                                     const vec2& u) const;
@@ -67,8 +75,9 @@ class MeshLight {
   int group_;
   bool textured_;  ///< emission or coverage vary over the surface
   std::vector<Triangle> triangles_;
-  Distribution choice_;
-  float strength_ = 0;  ///< ∫ luminance of emission dA
+  Distribution choice_;   ///< by strength
+  bool by_view_ = false;  ///< triangles are chosen by weigh()
+  float strength_ = 0;    ///< ∫ luminance of emission dA
   scene::Bounds bounds_;
   vec3 center_{0};
   float extent2_ = 0;  ///< squared radius around the centre

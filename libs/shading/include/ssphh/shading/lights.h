@@ -63,8 +63,7 @@ class LightSet {
   LightSet(const scene::Scene&&, const std::vector<mat4>&, float = 0) = delete;  // it would be gone
   /// The emitters of `base`'s scene with its lights as `lights` say, one state per scene::Light, and its
   /// emissive instances posed by `world`, and its environment as it is now. What has not moved is shared with
-  /// `base`, and so is the size of the scene, by which sample() divides its choices between near and distant
-  /// lights.
+  /// `base`.
   LightSet(const LightSet& base, const std::vector<mat4>& world, std::span<const scene::LightState> lights,
            const scene::EnvironmentState& environment = {});
   /// Becomes LightSet(base, …) where it was made of the same base, in its own memory: allocates nothing where
@@ -80,14 +79,17 @@ class LightSet {
   bool empty() const;
   const std::vector<std::string>& groups() const;
 
-  /// Chooses a light and a point on it as seen from `position`. `u_choice` in [0, 1), `u` in [0, 1)². Empty
-  /// when there is no light or the chosen one cannot light the point.
-  std::optional<LightSample> sample(const vec3& position, float u_choice, const vec2& u) const;
+  /// How many samples give all light at a point: one of the lamps and emissive meshes, and one of what is
+  /// distant, where there are such. Which of the two is worth more no point can tell: walls may hide either.
+  int sample_count() const;
+  /// Chooses a light of sample i < sample_count(), and a point on it as seen from `position`. `u_choice` in
+  /// [0, 1), `u` in [0, 1)². Empty when the chosen one cannot light the point.
+  std::optional<LightSample> sample(int i, const vec3& position, float u_choice, const vec2& u) const;
 
   /// The emitters one by one, those that are off left out.
   int emitter_count() const;
   Emitter emitter(int i) const;
-  /// As sample(), of emitter i alone: `pdf` holds no probability of a choice and is 1 where `delta`.
+  /// A sample of emitter i alone: `pdf` holds no probability of a choice and is 1 where `delta`.
   /// Stratified `u` give stratified samples.
   std::optional<LightSample> sample_emitter(int i, const vec3& position, const vec2& u) const;
   /// Luminance of the flux of emitter i [W]; of distant ones, through a sphere of `radius` metres.
