@@ -186,13 +186,21 @@ scene::Scene floor_under_a_sky(const scene::Material& floor) {
 }
 
 TEST(MirroredEmitters, AreSeenByWhatHasTheirLightFromALookup) {
-  for (const float roughness : {0.3f, 0.5f, 0.9f}) {
-    SCOPED_TRACE(roughness);
-    const scene::Scene scene = floor_under_a_sky(metal(roughness));
-    GivenLight dark;
-    dark.given_irradiance = dark.given_radiance = vec3(0);
-    dark.groups = dark.mirrored = {scene.environment->name};
-    expect_direct(scene, dark);
+  for (const bool lamp : {false, true}) {
+    for (const float roughness : {0.3f, 0.5f, 0.9f}) {
+      SCOPED_TRACE(testing::Message() << roughness << (lamp ? ", with a lamp" : ""));
+      scene::Scene scene = floor_under_a_sky(metal(roughness));
+      GivenLight dark;
+      dark.given_irradiance = dark.given_radiance = vec3(0);
+      dark.groups = {scene.environment->name};
+      if (lamp) {
+        scene::Light& bulb = add_light(scene, scene::LightType::sphere, 3, vec3(0.5f, 0.2f, 0.3f));
+        bulb.radius = 0.2f, bulb.group = "bulb";
+        dark.groups.push_back(bulb.group);
+      }
+      dark.mirrored = dark.groups;
+      expect_direct(scene, dark);
+    }
   }
 }
 

@@ -59,6 +59,17 @@ TEST(SurfaceIrradiance, GlowingBoxGivesTheGeometricSum) {
   }
 }
 
+TEST(SurfaceIrradiance, IsThatOfALampAndOfTheSunBesideIt) {
+  scene::Scene scene;
+  add_floor(scene, lambertian(vec3(0.5f)));
+  add_light(scene, scene::LightType::point, 8, vec3(0, 2, 0)).color = vec3(1, 0.5f, 0.25f);
+  add_light(scene, scene::LightType::directional, 3, vec3(0), vec3(-1, -1, 0)).color = vec3(0.1f, 0.4f, 1);
+  const SurfacePoint floor{vec3(0), vec3(0, 1, 0)};
+  const vec3 expected = vec3(2, 1, 0.5f) + 3 * std::sqrt(0.5f) * vec3(0.1f, 0.4f, 1);
+  const auto found = trace::PathTracer(scene).surface_irradiance(std::span(&floor, 1), {1, 1, 16, 3}, {});
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[0].direct[c], expected[c], 1e-5f) << c;
+}
+
 TEST(SurfaceIrradiance, TwoPathsAlreadyGiveTheirVariance) {
   // Depths 2 to 5 in the glowing box. The mean of squared errors is the mean of the variances.
   const scene::Scene scene = scene::make_builtin("box");
