@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -247,40 +245,62 @@ void SurfelSet::update_albedo() {
     surfels_[s].albedo = vec3(albedo_sum_[s] / member_count_[s]);
 }
 
-namespace {
-
-/// The place of a point of [0, 1]³ along a curve that fills it (Morton's): points that follow each other lie
-/// together.
-std::uint32_t place_along_curve(const vec3& u) {
-  constexpr int bits = 10;
-  const uvec3 at(u * static_cast<float>((1 << bits) - 1));
-  std::uint32_t place = 0;
-  for (int bit = bits - 1; bit >= 0; --bit) {
-    for (int axis = 0; axis < 3; ++axis) place = place << 1 | (at[axis] >> bit & 1);
-  }
-  return place;
-}
-
-}  // namespace
-
 std::vector<ClusterPoint> SurfelSet::spread_members(int surfel, int count) const {
+  // Farthest-point order: begin at the representative, then always take the one farthest from all taken.
   const std::vector<ClusterPoint>& all = members_[surfel];
-  scene::Bounds bounds;
-  for (const ClusterPoint& member : all) bounds.add(member.point.position);
-  const float size = std::max(max_component(bounds.max - bounds.min), std::numeric_limits<float>::min());
-  std::vector<std::pair<std::uint32_t, std::size_t>> order;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    order.emplace_back(place_along_curve((all[i].point.position - bounds.min) / size), i);
-  std::ranges::sort(order);
-  const std::size_t wanted = std::min(order.size(), static_cast<std::size_t>(count));
+  std::vector<float> distance2(all.size(), std::numeric_limits<float>::infinity());
   std::vector<ClusterPoint> chosen;
-  for (std::size_t k = 0; k < wanted; ++k) {
-    const ClusterPoint& middle = all[order[(2 * k + 1) * order.size() / (2 * wanted)].second];
-    const bool known = std::ranges::any_of(
-        chosen, [&](const ClusterPoint& c) { return c.point.position == middle.point.position; });
-    if (!known) chosen.push_back(middle);
+  for (std::size_t next = 0; static_cast<int>(chosen.size()) < count;) {
+    chosen.push_back(all[next]);
+    float farthest = 0;
+    const vec3 last = all[next].point.position;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const vec3 d = all[i].point.position - last;
+      distance2[i] = std::min(distance2[i], glm::dot(d, d));
+      if (distance2[i] > farthest) farthest = distance2[i], next = i;
+    }
+    if (!(farthest > 0)) break;
   }
   return chosen;
+}
+
+std::vector<ClusterPoint> SurfelSet::spread_places(int index, int count) const {
+  const Surfel& surfel = surfels_[index];
+  const Key own = key(surfel.part, surfel.point);
+  const Voxel v = voxel(surfel.part, surfel.level, surfel.point.position);
+  const float edge = sizes_.size(surfel.level);
+  const vec3 low = origin_[surfel.part] - 2.25f * edge +
+                   edge * vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
+  const int bin = direction_bin(surfel.point.normal), axis = bin / 2;
+  const int across = (axis + 1) % 3, along = (axis + 2) % 3;
+  const bool negative = (bin & 1) != 0;
+  std::vector<rays::RayQuery> rays;
+  const std::uint64_t h = mix64(static_cast<std::uint64_t>(index));
+  const int most = 2 * count;  // some miss it
+  for (int i = 0; i < most; ++i) {
+    const double a = 0.7548776662466927 * (i + 1) + static_cast<double>(h >> 32) * 0x1p-32;
+    const double b = 0.5698402909980532 * (i + 1) + static_cast<double>(h & 0xffffffffu) * 0x1p-32;
+    vec3 from = low, direction(0);
+    from[across] += edge * static_cast<float>(a - std::floor(a));
+    from[along] += edge * static_cast<float>(b - std::floor(b));
+    if (!negative) from[axis] += edge;
+    direction[axis] = negative ? 1.0f : -1.0f;
+    rays.push_back({from, direction, edge});
+  }
+  std::vector<rays::RayHit> hits(rays.size());
+  source_->intersect(surfel.part, rays, hits);
+  std::vector<ClusterPoint> places;
+  for (std::size_t i = 0; i < rays.size() && static_cast<int>(places.size()) < count; ++i) {
+    if (hits[i].escaped() || hits[i].back || hits[i].distance > edge) continue;
+    const rays::SurfacePoint place{rays[i].origin + (1 - 2e-5f) * hits[i].distance * rays[i].direction,
+                                   hits[i].normal};
+    if (key(surfel.part, place) != own) continue;
+    const rays::RayQuery way = segment(surfel.point, surfel.height, place, height(surfel.part, place));
+    std::uint8_t blocked = 0;
+    source_->occluded(surfel.part, {&way, 1}, {&blocked, 1});
+    if (!blocked) places.push_back({place, hits[i].albedo});
+  }
+  return places;
 }
 
 }  // namespace ssphh::transport

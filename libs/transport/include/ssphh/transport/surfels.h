@@ -64,9 +64,11 @@ class SurfelSet {
   /// Sets every surfel's albedo to the mean of the points added so far.
   void update_albedo();
 
-  /// At most `count` members of a surfel, of those first added, in different places: each stands for as many
-  /// of them, which lie together. So a recess counts as much as rays find of it.
+  /// At most `count` members of a surfel that lie far apart, of those first added.
   std::vector<ClusterPoint> spread_members(int surfel, int count) const;
+  /// At most `count` places of a surfel, spread evenly over the area that its voxel cuts out of the surface
+  /// as seen along the voxel's main direction.
+  std::vector<ClusterPoint> spread_places(int surfel, int count) const;
   /// At most `count` of the members kept, in the order they were added.
   std::span<const ClusterPoint> members(int surfel) const { return members_[surfel]; }
 
