@@ -48,7 +48,7 @@ Distribution::Choice choose_weighted(std::span<const float> weights, float total
     if (at < next) break;  // else rounding at the end of the sum falls to the last one
   }
   const float w = weights[chosen];
-  return {chosen, glm::clamp((at - below) / w, 0.0f, 0x1.fffffep-1f), w / total};
+  return {chosen, std::clamp((at - below) / w, 0.0f, 0x1.fffffep-1f), w / total};
 }
 
 }  // namespace ssphh::shading
