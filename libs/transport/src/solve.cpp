@@ -11,10 +11,6 @@ namespace {
 
 /// Rows per task: some 50 µs of work.
 constexpr std::size_t rows_per_block = 256;
-/// Where in so many iterations the residual has not shrunk to this share, steps are made shorter.
-constexpr int patience = 100;
-constexpr float least_progress = 0.8f;
-constexpr double shorter = 0.9;
 /// Below it a residual within the tolerance leaves less than ten times as much.
 constexpr double settling_bound = 0.9;
 
@@ -188,8 +184,8 @@ void Solver::bounce() {
   });
   radiosity_.swap(next_radiosity_);
   const double c2 = p.bound * p.bound;
-  if (p.bound < 1) p.omega = p.steps == 0 ? 1 / (1 - c2 / 2) : 1 / (1 - c2 * p.omega / 4);
-  ++p.steps, ++report_.iterations;
+  if (p.bound < 1) p.omega = report_.iterations == 0 ? 1 / (1 - c2 / 2) : 1 / (1 - c2 * p.omega / 4);
+  ++report_.iterations;
   report_.residual = largest_of(block_residual_);
   const double sum = std::accumulate(block_sum_.begin(), block_sum_.end(), 0.0),
                change = std::accumulate(block_change_.begin(), block_change_.end(), 0.0);
@@ -197,20 +193,6 @@ void Solver::bounce() {
   const bool settles = p.params.settle && p.bound >= settling_bound;
   report_.converged =
       report_.residual <= p.params.tolerance && (!settles || report_.error <= p.params.tolerance);
-  if (report_.iterations % patience == 0) make_sure_of_progress();
-}
-
-/// Links are not symmetric: where light goes round in a ring, modes turn as they decay, and Chebyshev's steps
-/// may make more of them each time. The shorter the steps, the fewer are those; plain iteration has none.
-void Solver::make_sure_of_progress() {
-  Problem& p = problem_;
-  if (p.bound < 1 && report_.residual > least_progress * p.residual_before) {
-    p.bound *= shorter;
-    p.rate = rate_of(p.bound);
-    p.omega = 1;
-    p.steps = 0;
-  }
-  p.residual_before = report_.residual;
 }
 
 }  // namespace ssphh::transport

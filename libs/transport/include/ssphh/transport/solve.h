@@ -3,7 +3,6 @@
 /// (docs/methods/transport.md).
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -53,8 +52,7 @@ void bounce_once(const LinkRows& links, std::span<const Irradiance4> radiosity, 
 /// Solves for `indirect`, of each row, under direct light of each patch. It holds the first guess (zero, or
 /// the last frame's answer, which is then scaled as the direct light's sum has changed since this solver's
 /// last call) on entry. Chebyshev's semi-iteration for eigenvalues within ±`contraction_bound` (Golub & Varga
-/// 1961; Saad, Iterative Methods, §12.3), with a lower bound where these make no progress; plain iteration
-/// when the bound is 1 or more. Rows are computed
+/// 1961; Saad, Iterative Methods, §12.3); plain iteration when the bound is 1 or more. Rows are computed
 /// independently of each other: the same bits for any number of threads. Allocates nothing from the second
 /// call of a size on.
 class Solver {
@@ -80,12 +78,9 @@ class Solver {
     glm::dvec3 sum{0};  ///< of the direct light
     double omega = 1;   ///< Chebyshev's
     double rate = 0;    ///< by which an iteration shrinks what is missing, at least
-    int steps = 0;      ///< with this bound
-    float residual_before = std::numeric_limits<float>::infinity();
   };
   bool finished() const { return report_.converged || report_.iterations >= problem_.params.max_iterations; }
   void bounce();
-  void make_sure_of_progress();
   /// Sets the radiosity of a row's patches.
   void set_radiosity(std::size_t row, const Irradiance4& indirect, std::vector<Irradiance4>& radiosity) const;
 
