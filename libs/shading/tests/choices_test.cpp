@@ -1,6 +1,8 @@
 /// How likely each light is chosen. No estimate's mean depends on it, but its noise does: densities against
 /// what the importance of each light says.
 
+#include <tuple>
+
 #include <gtest/gtest.h>
 
 #include <ssphh/scene/primitives.h>
@@ -238,6 +240,23 @@ TEST_F(Choices, OfABodysTrianglesGoByTheSideThatIsSeen) {
                                        static_cast<double>(lights.view_mesh(0, from, up)->irradiance().x)));
     }
   }
+}
+
+TEST(DistributionChoices, ByWeightsAreThoseOfTheirShares) {
+  const float weights[] = {0, 1, 3, 0};
+  for (const auto& [u, index, place] : {std::tuple(0.0f, 1u, 0.0f),
+                                        {0.2f, 1u, 0.8f},
+                                        {0.25f, 2u, 0.0f},
+                                        {0.625f, 2u, 0.5f},
+                                        {0x1.fffffep-1f, 2u, 1.0f}}) {
+    const Distribution::Choice choice = choose_weighted(weights, 4, u);
+    EXPECT_EQ(choice.index, index) << u;
+    EXPECT_NEAR(choice.u, place, 1e-6f) << u;
+    EXPECT_LT(choice.u, 1) << u;
+    EXPECT_EQ(choice.probability, index == 1 ? 0.25f : 0.75f) << u;
+  }
+  // The weights' sum may be a little less than what is said
+  EXPECT_EQ(choose_weighted(weights, 4.001f, 0x1.fffffep-1f).index, 2u);
 }
 
 TEST(DistributionChoices, EndWhereTheLastWeightDoes) {

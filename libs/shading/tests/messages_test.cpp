@@ -47,6 +47,8 @@ TEST(ShadingMessages, OfLightSets) {
   const std::string emitter = "light set: there is no emitter of that index";
   for (const int i : {-1, 3}) {
     EXPECT_EQ(message_of([&] { lights.emitter(i); }), emitter);
+    EXPECT_EQ(message_of([&] { lights.sample(i, vec3(0), 0.5f, vec2(0)); }),
+              "light set: there is no sample of that index");
     EXPECT_EQ(message_of([&] { lights.sample_emitter(i, vec3(0), vec2(0)); }), emitter);
     EXPECT_EQ(message_of([&] { lights.flux(i, 1); }), emitter);
     EXPECT_EQ(message_of([&] { lights.emit(i, vec2(0), vec2(0), vec3(0), 1); }), emitter);

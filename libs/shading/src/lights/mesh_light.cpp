@@ -59,7 +59,7 @@ MeshLight::MeshLight(const scene::Scene* scene, std::shared_ptr<const Body> body
       mean = 0.95f * sum / points + 0.05f * mean;
     }
     Triangle& t = triangles_.back();
-    t.strength = mean * t.area;
+    t.strength = usable ? mean * t.area : 0.0f;
     weights.push_back(t.strength);
     strength_ += t.strength;
   }
