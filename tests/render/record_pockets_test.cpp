@@ -33,7 +33,7 @@ TEST(RecordPockets, AreEverywhereThatASurfelWouldSeeNone) {
   const auto gather = gallery.where_needed(most, 32);
   EXPECT_LE(gather->points().size(), 2u * most);
   const auto spread = unlit(transport::spread_points(all, most));
-  ASSERT_GT(spread, static_cast<long>(all.size() / 20)) << "so few see all: nothing is tested";
+  ASSERT_GT(spread, static_cast<long>(all.size() / 25)) << "so few see all: nothing is tested";
   EXPECT_LT(unlit(gather->points()), spread / 2);
 }
 
@@ -55,8 +55,10 @@ TEST(RecordPockets, AreNearMostPatches) {
              });
     });
   };
-  // 106, 109, 170 of 13,006 patches; 192, 246, 325 where any point within reach will do.
-  EXPECT_LT(from_afar(120) + from_afar(140) + from_afar(160), 570);
+  // 2,166 of 10 × 13,571 patches; 2,808 where any point within reach will do.
+  long sum = 0;
+  for (int most = 110; most <= 200; most += 10) sum += from_afar(most);
+  EXPECT_LT(sum, 2450);
 }
 
 TEST(RecordPockets, ThoseOfPatchesLeaveNoSurfelWithoutAny) {

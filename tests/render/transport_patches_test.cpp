@@ -71,8 +71,9 @@ TEST(TransportPatches, ALampCloseUnderTheCeilingLightsTheRoomAsBrightAsItDoes) {
 }
 
 TEST(TransportPatches, WhatALampThrowsOnTheRoofJustAboveItReturnsThoughSurfelsAreLarge) {
-  // Most of it lies within a hand's breadth of the lamp. Surfels wider than the lamp, as large halls have
-  // them, lost 7 % of the hall's light or had up to 18 % too much, as their points happened to lie.
+  // Most of it lies within a hand's breadth of the lamp, and surfels may be wider than the lamp, as large
+  // halls have them. Where their points happen to lie, they find 0.96 to 1.09 of the light of small ones;
+  // where they stand wherever rays arrive, 1.00 to 1.20, 1.077 in the mean.
   scene::Scene scene;
   scene.nodes.emplace_back();
   add_body(scene, "hall", scene::flipped(scene::make_box({-3, 0, -8}, {3, 4, 8})), vec3(0.5f));
@@ -98,7 +99,13 @@ TEST(TransportPatches, WhatALampThrowsOnTheRoofJustAboveItReturnsThoughSurfelsAr
     return sum;
   };
   const float fine = light_of(0.25f);
-  for (const float size : {1.4f, 1.5f, 2.2f, 2.5f}) EXPECT_NEAR(light_of(size) / fine, 1, 0.04f) << size;
+  float mean = 0;
+  for (int i = 0; i < 12; ++i) {
+    const float size = 1.2f + 0.1f * static_cast<float>(i), ratio = light_of(size) / fine;
+    EXPECT_NEAR(ratio, 1, 0.12f) << size;
+    mean += ratio / 12;
+  }
+  EXPECT_NEAR(mean, 1, 0.04f);
 }
 
 TEST(TransportPatches, AWallOfTwoColoursGlowsInEachWhereItIs) {

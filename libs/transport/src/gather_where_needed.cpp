@@ -317,7 +317,7 @@ std::unique_ptr<SurfaceGather> gather_where_needed(const TransportNetwork& netwo
   // Then where surfels, and their patches, see none of these: pockets between the points of surfels. Where
   // more stand, each reaches less far: so surfels are asked again
   const std::size_t most = std::min(2 * gather->points().size(), most_records);
-  for (const bool patches : {false, true, false}) {
+  for (const bool patches : {false, true, false, false}) {
     if (gather->points().size() >= most) break;
     const std::vector<rays::SurfacePoint> unlit =
         places.unlit(places.between(gather->points()), patches, most - gather->points().size(), control);

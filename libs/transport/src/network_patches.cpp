@@ -7,25 +7,11 @@
 #include "network_data.h"
 
 namespace ssphh::transport {
-namespace {
-
-/// Of a surfel with fewer evenly spread places (a sliver, a steep one) those that rays happened to find
-/// count, too.
-constexpr int least_places = 3;
-
-}  // namespace
-
 void TransportNetwork::Data::choose_samples() {
   const std::size_t first = local_samples.size() / sample_count();
   std::vector<std::vector<ClusterPoint>> chosen(surfels.count() - first);
   parallel_for(chosen.size(), 16, [&](std::size_t i) {
-    const int s = static_cast<int>(first + i), count = params.samples;
-    // Points found on a moving part are spread over its area already
-    if (surfels.surfels()[first + i].part == 0) chosen[i] = surfels.spread_places(s, count);
-    if (static_cast<int>(chosen[i].size()) >= std::min(least_places, count)) return;
-    for (const ClusterPoint& member : surfels.spread_members(s, count)) {
-      if (static_cast<int>(chosen[i].size()) < count) chosen[i].push_back(member);
-    }
+    chosen[i] = surfels.spread_samples(static_cast<int>(first + i), params.samples);
   });
   for (const std::vector<ClusterPoint>& of_surfel : chosen) {
     for (std::size_t i = 0; i < sample_count(); ++i) {

@@ -134,10 +134,10 @@ void TransportNetwork::Data::pose_samples() {
   parallel_for(surfels.count() - static_count, 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = static_count + begin; s < static_count + end; ++s) {
       const Surfel& surfel = surfels.surfels()[s];
+      const rays::SurfacePoint middle = to_world(surfel.part, surfel.point);
       for (std::size_t i = s * m; i < (s + 1) * m; ++i)
         sample_used[i] = sample_exists[i] && !covered(surfel.part, samples[i]) &&
-                         (i == s * m || !blocked(SurfelSet::segment(samples[s * m], surfel.height, samples[i],
-                                                                    surfel.height)));
+                         !blocked(SurfelSet::segment(middle, surfel.height, samples[i], surfel.height));
     }
   });
   parallel_for(hidden_samples.size(), 256, [&](std::size_t k) {

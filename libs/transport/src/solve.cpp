@@ -11,6 +11,12 @@ namespace {
 
 /// Rows per task: some 50 µs of work.
 constexpr std::size_t rows_per_block = 256;
+/// Where in so many iterations the residual has not shrunk to this share, steps begin anew for a smaller
+/// bound.
+constexpr int patience = 100;
+constexpr float least_progress = 0.9f;
+/// Below it steps are as good as plain.
+constexpr double least_bound = 0.1;
 /// Below it a residual within the tolerance leaves less than ten times as much.
 constexpr double settling_bound = 0.9;
 
@@ -74,12 +80,11 @@ Contraction contraction(const LinkRows& links, std::span<const vec3> albedo, int
 
 namespace {
 
-/// Of light that a bounce shrinks by the bound at most, or, where that is the most there is, by most_albedo.
-double rate_of(double bound) {
+/// By what a step for the bound shrinks light that a bounce shrinks to a share `slowest`.
+double rate_of(double bound, double slowest) {
   if (bound <= 0) return 0;
   if (bound >= 1) return double(most_albedo);
-  const double slowest = bound < most_chebyshev_bound ? 1 : double(most_albedo) / bound;
-  return std::exp(std::acosh(slowest) - std::acosh(1 / bound));
+  return std::exp(std::acosh(std::max(slowest / bound, 1.0)) - std::acosh(1 / bound));
 }
 
 }  // namespace
@@ -105,7 +110,8 @@ void Solver::begin(const LinkRows& links, std::span<const vec3> albedo, std::spa
   require(params.tolerance >= 0, "solver", "the tolerance must be a number from 0 up");
   require(params.max_iterations >= 0, "solver", "fewer than 0 iterations");
   problem_ = {&links, albedo, direct, contraction_bound, params, &indirect};
-  problem_.rate = rate_of(contraction_bound);
+  problem_.slowest = contraction_bound < most_chebyshev_bound ? contraction_bound : double(most_albedo);
+  problem_.rate = rate_of(contraction_bound, problem_.slowest);
   report_ = {};
   report_.converged = count == 0;
   const std::size_t blocks = (count + rows_per_block - 1) / rows_per_block;
@@ -184,15 +190,36 @@ void Solver::bounce() {
   });
   radiosity_.swap(next_radiosity_);
   const double c2 = p.bound * p.bound;
-  if (p.bound < 1) p.omega = report_.iterations == 0 ? 1 / (1 - c2 / 2) : 1 / (1 - c2 * p.omega / 4);
+  if (p.bound < 1) p.omega = p.steps == 0 ? 1 / (1 - c2 / 2) : 1 / (1 - c2 * p.omega / 4);
   ++report_.iterations;
   report_.residual = largest_of(block_residual_);
   const double sum = std::accumulate(block_sum_.begin(), block_sum_.end(), 0.0),
                change = std::accumulate(block_change_.begin(), block_change_.end(), 0.0);
   report_.error = sum > 0 ? static_cast<float>(change / sum * p.rate / (1 - p.rate)) : 0;
-  const bool settles = p.params.settle && p.bound >= settling_bound;
+  const bool settles = p.params.settle && p.slowest >= settling_bound;
   report_.converged =
       report_.residual <= p.params.tolerance && (!settles || report_.error <= p.params.tolerance);
+  if (++p.steps % patience != 0 || !(p.bound < 1)) return;
+  const bool in_vain = report_.residual > least_progress * p.residual_before;
+  p.residual_before = report_.residual;
+  if (in_vain && !report_.converged) begin_anew();
+}
+
+/// Links are not symmetric: where light goes round in a ring, eigenvalues are complex. Steps for a bound c
+/// cover the ellipses of foci ±c that leave 1 outside (Manteuffel 1977): up to 0.2 off the axis for 0.98,
+/// 0.55 for 0.83; what is beyond grows. Plain steps from darkness only ever add the next bounce.
+void Solver::begin_anew() {
+  Problem& p = problem_;
+  p.bound = p.bound * p.bound * p.bound;
+  if (p.bound < least_bound) p.bound = 1;
+  p.rate = rate_of(p.bound, p.slowest);
+  p.omega = 1;
+  p.steps = 0;
+  p.residual_before = 1;
+  std::ranges::fill(*p.indirect, Irradiance4(0));
+  std::ranges::fill(previous_, Irradiance4(0));
+  for (std::size_t i = 0; i < previous_.size(); ++i) set_radiosity(i, previous_[i], radiosity_);
+  std::ranges::fill(block_largest_, 0.0f);
 }
 
 }  // namespace ssphh::transport

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -15,6 +17,16 @@ constexpr int axis_bits = 17;
 /// Along an axis; those near lamps are down to a quarter as large.
 constexpr float most_voxels = (1 << (axis_bits - 2)) - 8;
 constexpr std::size_t max_members = 48;
+
+/// What counts as one flat sheet: members' distances from the representative's plane, of the voxel's edge,
+/// and the cosines of their normals with its.
+constexpr float most_unevenness = 0.01f, least_flatness = 0.99f;
+/// Of the voxel's edge: what is closer before a sheet hides it.
+constexpr float hidden_below = 0.1f;
+/// Rays for each place wanted: some miss a surfel that has little of its voxel.
+constexpr int looks_per_place = 4;
+/// Fewer than these are no spread.
+constexpr std::size_t least_places = 3;
 
 /// Which of ±x, ±y, ±z the normal is nearest to: 0..5.
 int direction_bin(const vec3& n) {
@@ -245,62 +257,105 @@ void SurfelSet::update_albedo() {
     surfels_[s].albedo = vec3(albedo_sum_[s] / member_count_[s]);
 }
 
+namespace {
+
+/// The place of a point of [0, 1]³ along a curve that fills it (Morton's): points that follow each other lie
+/// together.
+std::uint32_t place_along_curve(const vec3& u) {
+  constexpr int bits = 10;
+  const uvec3 at(u * static_cast<float>((1 << bits) - 1));
+  std::uint32_t place = 0;
+  for (int bit = bits - 1; bit >= 0; --bit) {
+    for (int axis = 0; axis < 3; ++axis) place = place << 1 | (at[axis] >> bit & 1);
+  }
+  return place;
+}
+
+}  // namespace
+
 std::vector<ClusterPoint> SurfelSet::spread_members(int surfel, int count) const {
-  // Farthest-point order: begin at the representative, then always take the one farthest from all taken.
   const std::vector<ClusterPoint>& all = members_[surfel];
-  std::vector<float> distance2(all.size(), std::numeric_limits<float>::infinity());
+  scene::Bounds bounds;
+  for (const ClusterPoint& member : all) bounds.add(member.point.position);
+  const float size = std::max(max_component(bounds.max - bounds.min), std::numeric_limits<float>::min());
+  std::vector<std::pair<std::uint32_t, std::size_t>> order;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    order.emplace_back(place_along_curve((all[i].point.position - bounds.min) / size), i);
+  std::ranges::sort(order);
+  const std::size_t wanted = std::min(order.size(), static_cast<std::size_t>(count));
   std::vector<ClusterPoint> chosen;
-  for (std::size_t next = 0; static_cast<int>(chosen.size()) < count;) {
-    chosen.push_back(all[next]);
-    float farthest = 0;
-    const vec3 last = all[next].point.position;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const vec3 d = all[i].point.position - last;
-      distance2[i] = std::min(distance2[i], glm::dot(d, d));
-      if (distance2[i] > farthest) farthest = distance2[i], next = i;
-    }
-    if (!(farthest > 0)) break;
+  for (std::size_t k = 0; k < wanted; ++k) {
+    const ClusterPoint& middle = all[order[(2 * k + 1) * order.size() / (2 * wanted)].second];
+    const bool known = std::ranges::any_of(
+        chosen, [&](const ClusterPoint& c) { return c.point.position == middle.point.position; });
+    if (!known) chosen.push_back(middle);
   }
   return chosen;
+}
+
+bool SurfelSet::is_flat(int index) const {
+  const Surfel& surfel = surfels_[index];
+  const float most = most_unevenness * size(surfel.level);
+  return std::ranges::all_of(members_[index], [&](const ClusterPoint& member) {
+    const vec3& normal = surfel.point.normal;
+    return glm::dot(member.point.normal, normal) > least_flatness &&
+           std::abs(glm::dot(member.point.position - surfel.point.position, normal)) < most;
+  });
+}
+
+int SurfelSet::owner(const rays::SurfacePoint& point, float above, const Key& cell) const {
+  for (const int s : *find_cell(cell)) {
+    const rays::RayQuery way = segment(surfels_[s].point, surfels_[s].height, point, above);
+    std::uint8_t blocked = 0;
+    source_->occluded(surfels_[s].part, {&way, 1}, {&blocked, 1});
+    if (!blocked) return s;
+  }
+  return no_surfel;
 }
 
 std::vector<ClusterPoint> SurfelSet::spread_places(int index, int count) const {
   const Surfel& surfel = surfels_[index];
   const Key own = key(surfel.part, surfel.point);
   const Voxel v = voxel(surfel.part, surfel.level, surfel.point.position);
-  const float edge = sizes_.size(surfel.level);
+  const float edge = sizes_.size(surfel.level), above = hidden_below * edge;
   const vec3 low = origin_[surfel.part] - 2.25f * edge +
                    edge * vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
-  const int bin = direction_bin(surfel.point.normal), axis = bin / 2;
-  const int across = (axis + 1) % 3, along = (axis + 2) % 3;
-  const bool negative = (bin & 1) != 0;
-  std::vector<rays::RayQuery> rays;
+  const vec3 normal = surfel.point.normal;
+  const int axis = direction_bin(normal) / 2, across = (axis + 1) % 3, along = (axis + 2) % 3;
+  vec3 down(0);
+  down[axis] = normal[axis] < 0 ? 1.0f : -1.0f;
   const std::uint64_t h = mix64(static_cast<std::uint64_t>(index));
-  const int most = 2 * count;  // some miss it
-  for (int i = 0; i < most; ++i) {
-    const double a = 0.7548776662466927 * (i + 1) + static_cast<double>(h >> 32) * 0x1p-32;
-    const double b = 0.5698402909980532 * (i + 1) + static_cast<double>(h & 0xffffffffu) * 0x1p-32;
-    vec3 from = low, direction(0);
-    from[across] += edge * static_cast<float>(a - std::floor(a));
-    from[along] += edge * static_cast<float>(b - std::floor(b));
-    if (!negative) from[axis] += edge;
-    direction[axis] = negative ? 1.0f : -1.0f;
-    rays.push_back({from, direction, edge});
-  }
-  std::vector<rays::RayHit> hits(rays.size());
-  source_->intersect(surfel.part, rays, hits);
   std::vector<ClusterPoint> places;
-  for (std::size_t i = 0; i < rays.size() && static_cast<int>(places.size()) < count; ++i) {
-    if (hits[i].escaped() || hits[i].back || hits[i].distance > edge) continue;
-    const rays::SurfacePoint place{rays[i].origin + (1 - 2e-5f) * hits[i].distance * rays[i].direction,
-                                   hits[i].normal};
+  for (int i = 1; i <= looks_per_place * count && static_cast<int>(places.size()) < count; ++i) {
+    const double a = 0.7548776662466927 * i + static_cast<double>(h >> 32) * 0x1p-32;
+    const double b = 0.5698402909980532 * i + static_cast<double>(h & 0xffffffffu) * 0x1p-32;
+    vec3 on_plane = low;
+    on_plane[across] += edge * static_cast<float>(a - std::floor(a));
+    on_plane[along] += edge * static_cast<float>(b - std::floor(b));
+    const vec3 apart = on_plane - surfel.point.position;
+    on_plane[axis] = surfel.point.position[axis] -
+                     (apart[across] * normal[across] + apart[along] * normal[along]) / normal[axis];
+    const rays::RayQuery ray{on_plane - above * down, down, 2 * above};
+    rays::RayHit hit;
+    source_->intersect(surfel.part, {&ray, 1}, {&hit, 1});
+    if (hit.escaped() || hit.back || hit.distance > ray.t_max) continue;
+    const rays::SurfacePoint place{ray.origin + (1 - 2e-5f) * hit.distance * down, hit.normal};
     if (key(surfel.part, place) != own) continue;
-    const rays::RayQuery way = segment(surfel.point, surfel.height, place, height(surfel.part, place));
-    std::uint8_t blocked = 0;
-    source_->occluded(surfel.part, {&way, 1}, {&blocked, 1});
-    if (!blocked) places.push_back({place, hits[i].albedo});
+    if (owner(place, height(surfel.part, place), own) == index) places.push_back({place, hit.albedo});
   }
   return places;
+}
+
+std::vector<ClusterPoint> SurfelSet::spread_samples(int index, int count) const {
+  const auto wanted = static_cast<std::size_t>(count), least = std::min(least_places, wanted);
+  std::vector<ClusterPoint> chosen;
+  // Points found on a moving part are spread over its area already
+  if (surfels_[index].part == 0 && is_flat(index)) chosen = spread_places(index, count);
+  if (chosen.size() >= least) return chosen;
+  for (const ClusterPoint& member : spread_members(index, count)) {
+    if (chosen.size() < wanted) chosen.push_back(member);
+  }
+  return chosen;
 }
 
 }  // namespace ssphh::transport

@@ -197,6 +197,30 @@ TEST(SolveConvergence, APocketThatKeepsItsLightDoesNotHoldUpTheRest) {
   }
 }
 
+TEST(SolveConvergence, LightThatGoesRoundInARingIsNoReasonToGiveUp) {
+  // Each of three sees the next alone: eigenvalues ρ e^(±2πi/3), of which Chebyshev's steps make more and
+  // more.
+  const std::vector<Link> links{{1, 1}, {2, 1}, {0, 1}};
+  LinkRows rows;
+  for (std::size_t i = 0; i < 3; ++i) rows.rows.push_back({std::span(links).subspan(i, 1), {}});
+  const std::vector<vec3> albedo(3, vec3(0.97f, 0.9f, 0.5f));
+  std::vector<Irradiance4> direct(3, Irradiance4(0)), indirect;
+  direct[0] = Irradiance4(1, 2, 3, 0);
+  const SolveParams params{.max_iterations = 2000, .settle = true};
+  for (const double bound : {0.97, 0.9}) {
+    const SolveReport report = Solver().solve(rows, albedo, direct, bound, params, indirect);
+    EXPECT_TRUE(report.converged) << report.residual;
+    for (int c = 0; c < 3; ++c) {
+      const float rho = albedo[0][c], all = direct[0][c] / (1 - rho * rho * rho);
+      for (int i = 0; i < 3; ++i) {
+        const float exact = all * std::pow(rho, static_cast<float>(3 - i));
+        EXPECT_NEAR(indirect[i][c], exact, 3e-3f * exact) << i << " " << c;
+      }
+    }
+    indirect.clear();
+  }
+}
+
 TEST(SolveConvergence, LightThatIsToSettleHasItsLastBounces) {
   // A row that keeps all but ε of its light adds ε of it in a bounce: a residual says that it is done when
   // half of it is missing.

@@ -178,7 +178,7 @@ TEST(SurfelSet, SheetsCloserThanTheLiftOfSightShareNoSurfel) {
   EXPECT_EQ(all.size(), 2 * within.size()) << "sheets alike are divided alike";
   for (const int s : within) {
     EXPECT_NEAR(set.surfels()[s].height, 0.015f, 1e-4f);
-    for (const ClusterPoint& place : set.spread_places(s, 4))
+    for (const ClusterPoint& place : set.spread_samples(s, 4))
       EXPECT_NEAR(place.point.position.x, 2.2f, 1e-3f);
   }
 }
@@ -246,33 +246,34 @@ TEST(SurfelSet, CandidatesAreTheOwnCellsThenThoseAroundByDistance) {
   EXPECT_TRUE(set.candidates(0, {{2, 0, 2}, {0, -1, 0}}, room).empty()) << "nothing faces down";
 }
 
-TEST(SurfelSet, SpreadMembersLieFarApart) {
+TEST(SurfelSet, SpreadMembersAreSpreadAsAllOfThem) {
+  // Of three quarters of the points in a half of the surfel: so are the chosen, in both directions.
   const scene::Scene scene = specks();
   const TriangleSource source(scene);
   SurfelSet set(source, 8);
   std::vector<ClusterPoint> points;
   Pcg32 random(2);
-  for (int i = 0; i < 40; ++i)
-    points.push_back({{{1 + 2 * random.uniform(), 1, 1 + 2 * random.uniform()}, {0, 1, 0}}, vec3(0.5f)});
+  for (int i = 0; i < 48; ++i) {
+    const float from = i % 4 == 0 ? 2 : 1;
+    points.push_back({{{from + random.uniform(), 1, 1 + 2 * random.uniform()}, {0, 1, 0}}, vec3(0.5f)});
+  }
   set.add(0, points);
   ASSERT_EQ(set.count(), 1u);
-  for (const int wanted : {1, 2, 8, 40, 60}) {
+  for (const int wanted : {1, 2, 8, 16, 48, 60}) {
     const std::vector<ClusterPoint> chosen = set.spread_members(0, wanted);
-    ASSERT_EQ(chosen.size(), static_cast<std::size_t>(std::min(wanted, 40)));
-    EXPECT_EQ(chosen[0].point.position, points[0].point.position);
-    for (std::size_t k = 1; k < chosen.size(); ++k) {
-      // Each is as far from all before it as any point can be.
-      const auto distance_to_chosen = [&](const vec3& p) {
-        float nearest = 1e9f;
-        for (std::size_t j = 0; j < k; ++j)
-          nearest = std::min(nearest, glm::distance(p, chosen[j].point.position));
-        return nearest;
-      };
-      float farthest = 0;
-      for (const ClusterPoint& p : points)
-        farthest = std::max(farthest, distance_to_chosen(p.point.position));
-      EXPECT_NEAR(distance_to_chosen(chosen[k].point.position), farthest, 1e-6f);
+    const auto count = static_cast<float>(chosen.size());
+    ASSERT_EQ(chosen.size(), static_cast<std::size_t>(std::min(wanted, 48)));
+    std::set<float> places;
+    float beyond = 0, far = 0;
+    for (const ClusterPoint& c : chosen) {
+      const vec3& at = c.point.position;
+      EXPECT_TRUE(std::ranges::any_of(points, [&](const ClusterPoint& p) { return p.point.position == at; }));
+      places.insert(at.x), beyond += at.x > 2, far += at.z > 2;
     }
+    EXPECT_EQ(places.size(), chosen.size());
+    if (wanted < 8) continue;
+    EXPECT_NEAR(beyond / count, 0.25f, 0.08f) << wanted;
+    EXPECT_NEAR(far / count, 0.5f, 0.15f) << wanted;
   }
   SurfelSet same(source, 8);
   same.add(0, std::vector<ClusterPoint>(10, points[0]));

@@ -64,11 +64,17 @@ class SurfelSet {
   /// Sets every surfel's albedo to the mean of the points added so far.
   void update_albedo();
 
-  /// At most `count` members of a surfel that lie far apart, of those first added.
-  std::vector<ClusterPoint> spread_members(int surfel, int count) const;
-  /// At most `count` places of a surfel, spread evenly over the area that its voxel cuts out of the surface
-  /// as seen along the voxel's main direction.
+  /// Whether the members kept lie in one plane: such a surfel is a piece of one sheet.
+  bool is_flat(int surfel) const;
+  /// At most `count` places of a surfel, spread evenly over the area that its voxel cuts out of its
+  /// representative's plane; none where something hides them from closer than a tenth of the voxel's edge.
   std::vector<ClusterPoint> spread_places(int surfel, int count) const;
+  /// At most `count` members of a surfel, of those first added, in different places: each stands for as many
+  /// of them, which lie together. So a recess counts as much as rays find of it.
+  std::vector<ClusterPoint> spread_members(int surfel, int count) const;
+  /// At most `count` points that stand for a surfel: places of a flat one, unless nearly all of
+  /// it is hidden; else members.
+  std::vector<ClusterPoint> spread_samples(int surfel, int count) const;
   /// At most `count` of the members kept, in the order they were added.
   std::span<const ClusterPoint> members(int surfel) const { return members_[surfel]; }
 
@@ -103,6 +109,8 @@ class SurfelSet {
   Key key(int part, const rays::SurfacePoint& point) const;
   static int level_of(const Key& key) { return static_cast<int>(key.part_and_level & 0xff); }
   const std::vector<int>* find_cell(const Key& key) const;
+  /// Which surfel of a cell that is there a point so far above its surface joins: the first that sees it.
+  int owner(const rays::SurfacePoint& point, float above, const Key& cell) const;
 
   const rays::TransportSource* source_;
   SurfelSizes sizes_;
