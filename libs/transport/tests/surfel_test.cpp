@@ -308,6 +308,37 @@ TEST(SurfelSet, PlacesAreSpreadEvenlyOverWhatTheSurfelHasOfItsVoxel) {
   EXPECT_EQ(set.spread_places(0, 3).size(), 3u);
 }
 
+TEST(SurfelSet, SamplesOfASheetAreEvenAndThoseOfPiecesWhereRaysArrive) {
+  // A quarter of the points lies in the farther part of the voxel, from x = 1.25 to 1.75.
+  constexpr int wanted = 16;
+  const auto beyond = [](float other_height, bool points_on_other) {
+    scene::Scene scene;
+    add(scene, scene::make_quad({0, 0, 0}, {0, 0, 4}, {4, 0, 0}));
+    if (other_height > 0) add(scene, scene::make_quad({1.25f, other_height, 0}, {0, 0, 4}, {2.75f, 0, 0}));
+    const TriangleSource source(scene);
+    SurfelSet set(source, 1);
+    std::vector<ClusterPoint> points;
+    Pcg32 random(6);
+    for (int i = 0; i < 48; ++i) {
+      const bool far = i % 4 == 3;
+      const vec2 u = random.uniform2();
+      const float y = far && points_on_other ? other_height : 0;
+      points.push_back({{{(far && (y > 0 || other_height == 0) ? 1.27f : 0.77f) + 0.46f * u.x, y + 1e-5f,
+                          1.8f + 0.9f * u.y},
+                         {0, 1, 0}},
+                        vec3(0.5f)});
+    }
+    const std::vector<int> surfel = set.add(0, points);
+    EXPECT_EQ(surfel[0], surfel[3]) << "one surfel";
+    const std::vector<ClusterPoint> samples = set.spread_samples(surfel[0], wanted);
+    EXPECT_EQ(samples.size(), static_cast<std::size_t>(wanted));
+    return std::ranges::count_if(samples, [](const ClusterPoint& c) { return c.point.position.x > 1.25f; });
+  };
+  EXPECT_NEAR(beyond(0, false), wanted / 2, 1) << "a sheet";
+  EXPECT_NEAR(beyond(0.03f, true), wanted / 4, 1) << "a ledge in it";
+  EXPECT_NEAR(beyond(0.3f, false), wanted / 2, 1) << "below a board";
+}
+
 TEST(SurfelSet, AWallAtTheBoundsIsOneLayer) {
   // Hits on x = y = z = 0 and 4 with rounding errors: 4 / 0.5 leaves all six walls at the same place in
   // their voxels.
