@@ -202,7 +202,7 @@ void Solver::bounce() {
   if (++p.steps % patience != 0 || !(p.bound < 1)) return;
   const bool in_vain = report_.residual > least_progress * p.residual_before;
   p.residual_before = report_.residual;
-  if (in_vain && !report_.converged) begin_anew();
+  if (in_vain && !finished()) begin_anew();
 }
 
 /// Links are not symmetric: where light goes round in a ring, eigenvalues are complex. Steps for a bound c

@@ -218,6 +218,10 @@ TEST(SolveConvergence, LightThatGoesRoundInARingIsNoReasonToGiveUp) {
       }
     }
     indirect.clear();
+    Solver().solve(rows, albedo, direct, bound, {.max_iterations = 100, .settle = true}, indirect);
+    EXPECT_GT(indirect[0].x + indirect[1].x + indirect[2].x, 0)
+        << "the last of the iterations begins nothing";
+    indirect.clear();
   }
 }
 

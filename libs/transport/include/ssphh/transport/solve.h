@@ -52,9 +52,9 @@ void bounce_once(const LinkRows& links, std::span<const Irradiance4> radiosity, 
 /// Solves for `indirect`, of each row, under direct light of each patch. It holds the first guess (zero, or
 /// the last frame's answer, which is then scaled as the direct light's sum has changed since this solver's
 /// last call) on entry. Chebyshev's semi-iteration for eigenvalues within ±`contraction_bound` (Golub & Varga
-/// 1961; Saad, Iterative Methods, §12.3); plain iteration when the bound is 1 or more. Where
-/// steps make no progress, they begin anew for a smaller bound. Rows are computed independently of each
-/// other: the same bits for any number of threads. Allocates nothing from the second call of a size on.
+/// 1961; Saad, Iterative Methods, §12.3); plain iteration when the bound is 1 or more. Where steps make
+/// no progress, they begin anew for a smaller bound. Rows are computed independently of each other: the same
+/// bits for any number of threads. Allocates nothing from the second call of a size on.
 class Solver {
  public:
   SolveReport solve(const LinkRows& links, std::span<const vec3> albedo, std::span<const Irradiance4> direct,
