@@ -315,6 +315,8 @@ TEST(SurfelSet, SamplesOfASheetAreEvenAndThoseOfPiecesWhereRaysArrive) {
     scene::Scene scene;
     add(scene, scene::make_quad({0, 0, 0}, {0, 0, 4}, {4, 0, 0}));
     if (other_height > 0) add(scene, scene::make_quad({1.25f, other_height, 0}, {0, 0, 4}, {2.75f, 0, 0}));
+    // Voxels begin 2.25 sizes below this: one ends 5 cm above the sheet
+    add(scene, scene::make_quad({0, -0.7f, 0}, {0, 0, 0.1f}, {0.1f, 0, 0}));
     const TriangleSource source(scene);
     SurfelSet set(source, 1);
     std::vector<ClusterPoint> points;
@@ -336,7 +338,8 @@ TEST(SurfelSet, SamplesOfASheetAreEvenAndThoseOfPiecesWhereRaysArrive) {
   };
   EXPECT_NEAR(beyond(0, false), wanted / 2, 1) << "a sheet";
   EXPECT_NEAR(beyond(0.03f, true), wanted / 4, 1) << "a ledge in it";
-  EXPECT_NEAR(beyond(0.3f, false), wanted / 2, 1) << "below a board";
+  EXPECT_EQ(beyond(0.09f, false), 0) << "below a board that is closer than a tenth";
+  EXPECT_NEAR(beyond(0.11f, false), wanted / 2, 1) << "below one that is not";
 }
 
 TEST(SurfelSet, AWallAtTheBoundsIsOneLayer) {
