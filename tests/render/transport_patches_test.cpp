@@ -5,6 +5,7 @@
 
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/transport/gather_light.h>
+#include <ssphh/transport/network.h>
 
 #include "transport_fixtures.h"
 
