@@ -278,6 +278,12 @@ TEST(SurfelSet, SpreadMembersAreSpreadAsAllOfThem) {
   SurfelSet same(source, 8);
   same.add(0, std::vector<ClusterPoint>(10, points[0]));
   EXPECT_EQ(same.spread_members(0, 8).size(), 1u) << "points in one place are one sample";
+  SurfelSet line(source, 8);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i].point.position = {1 + 0.04f * static_cast<float>(i * 29 % 48), 1, 1};
+  line.add(0, points);
+  EXPECT_NEAR(line.spread_members(0, 1)[0].point.position.x, 1.96f, 0.05f)
+      << "the middle of those it stands for";
 }
 
 TEST(SurfelSet, PlacesAreSpreadEvenlyOverWhatTheSurfelHasOfItsVoxel) {
