@@ -127,7 +127,7 @@ void add_bake(py::module_& m) {
         "neighbors"_a = none, "threshold"_a = none, "viz_source"_a = none, "viz_paths"_a = none,
         "viz_max_depth"_a = none, "viz_passes"_a = none, "viz_spp"_a = none, "viz_transfer"_a = false,
         "directions"_a = none, "surfel_size"_a = none, "link_rays"_a = none, "records"_a = none,
-        "fit"_a = false, py::arg_v("clearance", 0.04f, "0.04"), "refine"_a = 1, "max_probes"_a = 4096,
+        "fit"_a = false, py::arg_v("clearance", 0.04f, "0.04"), "refine"_a = 1, "max_probes"_a = 65536,
         "resume"_a = true, "progress"_a = none);
 }
 

@@ -99,7 +99,7 @@ void add_place(py::module_& m) {
       });
   m.def("place", &find_places, "Finds places for probes, as `ssphh place` does.", "scene"_a,
         "probes"_a = py::none(), py::kw_only(), py::arg_v("clearance", 0.04f, "0.04"), "refine"_a = 1,
-        "max_probes"_a = 4096, "progress"_a = py::none());
+        "max_probes"_a = 65536, "progress"_a = py::none());
 }
 
 }  // namespace ssphh::python

@@ -35,7 +35,7 @@ def bake(
     fit: bool = False,
     clearance: float = 0.04,
     refine: int = 1,
-    max_probes: int = 4096,
+    max_probes: int = 65536,
     resume: bool = True,
     progress: Progress | None = None,
 ) -> ProbeSet:

@@ -39,7 +39,7 @@ def place(
     *,
     clearance: float = 0.04,
     refine: int = 1,
-    max_probes: int = 4096,
+    max_probes: int = 65536,
     progress: Progress | None = None,
 ) -> Placement:
     """Finds places for probes: auto (None), auto:METRES, or so many."""

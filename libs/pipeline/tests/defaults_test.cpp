@@ -35,7 +35,7 @@ TEST(Defaults, OfBakes) {
   EXPECT_EQ(places.probes, "");
   EXPECT_EQ(places.clearance, 0.04f);
   EXPECT_EQ(places.levels, 1);
-  EXPECT_EQ(places.max_probes, 4096);
+  EXPECT_EQ(places.max_probes, 65536);
   EXPECT_EQ(PlaceResult().seconds, 0);
   const BakeSettings bake;
   EXPECT_EQ(bake.degree, 9);

@@ -72,7 +72,7 @@ TEST(Aimed, TurnsWhereALampShinesAndLeavesItsPlace) {
 }
 
 TEST(Places, AreFewEnoughUnlessMoreAreAskedFor) {
-  EXPECT_EQ(PlaceOptions().max_probes, 4096);
+  EXPECT_EQ(PlaceOptions().max_probes, 65536);
   EXPECT_EQ(PlaceOptions().levels, 1);
 }
 

@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <numeric>
+#include <utility>
 
 #include <ssphh/core/parallel.h>
 
@@ -14,32 +17,56 @@ std::size_t root(std::vector<std::size_t>& parent, std::size_t i) {
   return i;
 }
 
+/// Drafts whose spacing is alike: those of a plain reach so far that no grid of cells suits them and those
+/// of its houses.
+struct Scale {
+  float widest = 0;                   ///< spacing
+  std::vector<std::uint32_t> drafts;  ///< ascending
+};
+
+std::vector<Scale> by_scale(const std::vector<Draft>& drafts) {
+  std::map<int, Scale> scales;
+  for (std::size_t i = 0; i < drafts.size(); ++i) {
+    Scale& scale = scales[std::ilogb(drafts[i].spacing)];
+    scale.widest = std::max(scale.widest, drafts[i].spacing);
+    scale.drafts.push_back(static_cast<std::uint32_t>(i));
+  }
+  std::vector<Scale> result;
+  for (auto& [exponent, scale] : scales) result.push_back(std::move(scale));
+  return result;
+}
+
 }  // namespace
 
 std::vector<PlacedEdge> link(const PlaceContext& context, const std::vector<Draft>& drafts) {
-  float widest = 0;
-  for (const Draft& draft : drafts) widest = std::max(widest, draft.spacing);
-  geometry::NearGrid grid(link_distance * widest);
-  for (const Draft& draft : drafts) grid.add(draft.position);
-
+  const std::vector<Scale> scales = by_scale(drafts);
   std::vector<std::vector<PlacedEdge>> by_probe(drafts.size());
-  parallel_for(
-      drafts.size(), 16,
-      [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          for (const std::uint32_t j : grid.near(drafts[i].position, link_distance * widest)) {
-            if (j <= i) continue;
-            const float limit = link_distance * 0.5f * (drafts[i].spacing + drafts[j].spacing);
-            if (glm::distance(drafts[i].position, drafts[j].position) > limit) continue;
-            if (sees(context.source, drafts[i].position, drafts[j].position)) {
-              by_probe[i].push_back({static_cast<std::uint32_t>(i), j, false});
+  for (const Scale& wide : scales) {
+    for (const Scale& narrow : scales) {
+      if (narrow.widest > wide.widest) continue;
+      const float most = link_distance * 0.5f * (wide.widest + narrow.widest);
+      geometry::NearGrid grid(most);
+      for (const std::uint32_t j : narrow.drafts) grid.add(drafts[j].position);
+      parallel_for(
+          wide.drafts.size(), 16,
+          [&](std::size_t k) {
+            const std::uint32_t i = wide.drafts[k];
+            for (const std::uint32_t found : grid.near(drafts[i].position, most)) {
+              const std::uint32_t j = narrow.drafts[found];
+              if (&wide == &narrow && j <= i) continue;
+              const float limit = link_distance * 0.5f * (drafts[i].spacing + drafts[j].spacing);
+              if (glm::distance(drafts[i].position, drafts[j].position) > limit) continue;
+              const auto [a, b] = std::minmax(i, j);
+              if (sees(context.source, drafts[a].position, drafts[b].position))
+                by_probe[i].push_back({a, b, false});
             }
-          }
-        }
-      },
-      context.control);
+          },
+          context.control);
+    }
+  }
   std::vector<PlacedEdge> edges;
   for (const auto& list : by_probe) edges.insert(edges.end(), list.begin(), list.end());
+  std::ranges::sort(edges, {}, [](const PlacedEdge& edge) { return std::pair(edge.a, edge.b); });
   return edges;
 }
 

@@ -20,9 +20,6 @@ constexpr float relative_clearance = 0.1f;
 constexpr double places_per_probe = 64;  ///< candidates that are looked at before a spacing is refused
 constexpr int search_steps = 14;
 constexpr std::size_t sparse_places = 48;  ///< for what lies around the regions
-constexpr double region_share =
-    0.1;  ///< of the largest one's volume makes a region count for the number of probes
-constexpr std::size_t most_shares = 20;
 
 [[noreturn]] void fail(const std::string& problem, const std::string& hint = {}) {
   throw Error("probe placement", problem, hint);
@@ -69,14 +66,6 @@ struct Attempt {
   std::vector<PlacedEdge> edges;
   PlaceCounts counts;
 };
-
-/// How many regions are no mere lamp posts beside the largest.
-std::size_t region_shares(const Regions& regions) {
-  const double least = region_share * volume_of(regions.boxes[0]);
-  const auto large =
-      std::ranges::count_if(regions.boxes, [&](const scene::Bounds& box) { return volume_of(box) >= least; });
-  return std::clamp<std::size_t>(static_cast<std::size_t>(large), 1, most_shares);
-}
 
 /// A few probes for the open rest around the regions: its light hardly differs from place to place.
 std::vector<Draft> sparse_drafts(const rays::TransportSource& source, const PlaceParams& params,
@@ -172,7 +161,7 @@ Attempt place_in(const rays::TransportSource& source, const PlaceParams& params,
   }
   std::size_t low = static_cast<std::size_t>(params.count), high = low + low / 5;
   if (params.count == 0) {
-    const std::size_t shares = region_shares(regions), rest = regions.open_rest ? sparse_places : 0;
+    const std::size_t shares = regions.structures, rest = regions.open_rest ? sparse_places : 0;
     const auto most = static_cast<std::size_t>(params.max_probes);
     low = std::min(100 * shares + rest, most);
     high = std::min(200 * shares + rest, most);
@@ -247,7 +236,7 @@ Placement place_probes(const rays::TransportSource& source, const PlaceParams& p
     return place_in(source, params, regions, back_limit, control);
   };
   Attempt chosen = placed_in(detail_regions(source, control));
-  if (chosen.drafts.empty()) chosen = placed_in({{around(source.part_bounds(0))}, false});
+  if (chosen.drafts.empty()) chosen = placed_in({{around(source.part_bounds(0))}});
   if (chosen.drafts.empty()) {
     fail("no place is left that is neither inside a body nor too close to a surface",
          "use a smaller spacing, or place SPHLs by hand");

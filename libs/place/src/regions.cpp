@@ -12,16 +12,18 @@
 namespace ssphh::place {
 namespace {
 
-constexpr float most_voxels = 32, least_voxels = 8;  ///< along the longest side
-constexpr double alike_length = 0.9;                 ///< of the mean of normals that are alike, at least
+constexpr float finest_voxels = 128, most_voxels = 32, least_voxels = 8;  ///< along the longest side
+constexpr double alike_length = 0.9;  ///< of the mean of normals that are alike, at least
 constexpr double points_per_voxel = 4;
 constexpr double few_points = 0.1;     ///< of those in detail: the walls of a hall, a sign on a plain
 constexpr double least_saving = 0.25;  ///< of a box's volume, at most, is worth to be found in it
 constexpr std::size_t most_regions = 64;
-constexpr int most_rounds = 4;  ///< each finds what is a thirty-second as large
+constexpr double least_structure = 0.1;  ///< of the largest one's volume
+constexpr int most_rounds = 4;           ///< each finds what is a thirty-second as large
 constexpr int rest_places = 256;
-constexpr float sky_share = 0.4f;    ///< of the rays of a place in the open, at least
-constexpr double open_share = 0.95;  ///< of the places around regions in the open
+constexpr float sky_share = 0.4f;      ///< of the rays of a place in the open, at least
+constexpr double open_share = 0.95;    ///< of the places around regions in the open
+constexpr double street_share = 0.85;  ///< of those between houses: of the places in one 0.78
 constexpr float hall_size =
     4;  ///< median of the harmonic mean distances in a wide hall, in sides of the largest box
 
@@ -78,10 +80,10 @@ std::vector<scene::Bounds> boxes_of(std::set<Voxel> left, const vec3& origin, fl
 
 enum class Around { narrow, hall, open };
 
-/// What the places in `bounds` but in none of the boxes see: most of them nothing near, or nearly all the
-/// sky.
+/// What the places in `bounds` but in none of the boxes see: most of them nothing near, or a share of
+/// `enough_open` of them the sky.
 Around look_outside(const rays::TransportSource& source, const scene::Bounds& bounds,
-                    const std::vector<scene::Bounds>& boxes, const Control& control) {
+                    const std::vector<scene::Bounds>& boxes, double enough_open, const Control& control) {
   const std::vector<vec3> places = places_in(bounds, rest_places, [&](const vec3& place) {
     return std::ranges::none_of(boxes, [&](const scene::Bounds& box) { return inside(box, place); });
   });
@@ -90,33 +92,60 @@ Around look_outside(const rays::TransportSource& source, const scene::Bounds& bo
   const auto share = [&](const auto& is_so) {
     return static_cast<double>(std::ranges::count_if(sites, is_so)) / static_cast<double>(sites.size());
   };
-  if (share([](const Site& site) { return site.escaped > sky_share; }) >= open_share) return Around::open;
+  if (share([](const Site& site) { return site.escaped > sky_share; }) >= enough_open) return Around::open;
   float largest = 0;
   for (const scene::Bounds& box : boxes) largest = std::max(largest, max_component(box.max - box.min));
   const bool wide = share([&](const Site& site) { return site.harmonic > hall_size * largest; }) >= 0.5;
   return wide ? Around::hall : Around::narrow;
 }
 
-/// Boxes around the detail in `bounds`; none where there is nothing else.
-std::vector<scene::Bounds> detail_boxes(const std::vector<rays::PartPoint>& points,
-                                        const scene::Bounds& bounds) {
-  const float extent = max_component(bounds.max - bounds.min);
+std::vector<rays::PartPoint> points_in(const std::vector<rays::PartPoint>& points,
+                                       const scene::Bounds& bounds) {
   std::vector<rays::PartPoint> here;
   std::ranges::copy_if(points, std::back_inserter(here),
                        [&](const rays::PartPoint& p) { return inside(bounds, p.point.position); });
-  std::vector<scene::Bounds> boxes;
-  float size = 0;
-  for (float voxels = most_voxels; voxels >= least_voxels && boxes.empty(); voxels /= 2) {
-    size = extent / voxels;
-    const vec3 origin = bounds.min - 0.25f * size;
-    boxes = boxes_of(detailed_voxels(here, origin, size), origin, size);
-  }
+  return here;
+}
+
+/// Boxes around the detail of the points in `bounds`, which voxels of `size` tell; none where there is
+/// nothing else.
+std::vector<scene::Bounds> boxes_by_voxels(const std::vector<rays::PartPoint>& here,
+                                           const scene::Bounds& bounds, float size) {
+  const vec3 origin = bounds.min - 0.25f * size;
+  std::vector<scene::Bounds> boxes = boxes_of(detailed_voxels(here, origin, size), origin, size);
   for (scene::Bounds& box : boxes) {
     // A quarter of a voxel more: triangles reach farther than their points.
     box.min = glm::max(box.min - 0.25f * size, bounds.min);
     box.max = glm::min(box.max + 0.25f * size, bounds.max);
   }
   return boxes;
+}
+
+std::vector<scene::Bounds> detail_boxes(const std::vector<rays::PartPoint>& points,
+                                        const scene::Bounds& bounds) {
+  const float extent = max_component(bounds.max - bounds.min);
+  const std::vector<rays::PartPoint> here = points_in(points, bounds);
+  std::vector<scene::Bounds> boxes;
+  for (float voxels = most_voxels; voxels >= least_voxels && boxes.empty(); voxels /= 2)
+    boxes = boxes_by_voxels(here, bounds, extent / voxels);
+  return boxes;
+}
+
+/// Adds boxes around what stands apart in `bounds`, with nothing but the open between: houses of a town,
+/// whether or not streets are wide enough to be worth grids of their own. `bounds` itself where nothing does.
+void add_structures(const rays::TransportSource& source, const std::vector<rays::PartPoint>& points,
+                    const scene::Bounds& bounds, int rounds, std::vector<scene::Bounds>& structures,
+                    const Control& control) {
+  const float extent = max_component(bounds.max - bounds.min);
+  const std::vector<rays::PartPoint> here = points_in(points, bounds);
+  for (float voxels = finest_voxels; rounds > 0 && voxels >= least_voxels; voxels /= 2) {
+    const std::vector<scene::Bounds> boxes = boxes_by_voxels(here, bounds, extent / voxels);
+    if (boxes.size() < 2 || look_outside(source, bounds, boxes, street_share, control) != Around::open)
+      continue;
+    for (const scene::Bounds& box : boxes) add_structures(source, here, box, rounds - 1, structures, control);
+    return;
+  }
+  structures.push_back(bounds);
 }
 
 /// Whether probes gain by keeping to the boxes.
@@ -138,12 +167,24 @@ std::vector<scene::Bounds> divide(const rays::TransportSource& source,
     const std::vector<scene::Bounds> boxes =
         rooms ? room_boxes(source, bounds, control) : detail_boxes(points, bounds);
     if (!worth_it(boxes, bounds)) continue;
-    const Around around = look_outside(source, bounds, boxes, control);
+    const Around around = look_outside(source, bounds, boxes, open_share, control);
     if (around == Around::narrow) continue;
     in_hall = in_hall || around == Around::hall;
     return boxes;
   }
   return {};
+}
+
+/// In all boxes, but for what is a mere lamp post beside the largest.
+std::size_t count_structures(const rays::TransportSource& source, const std::vector<rays::PartPoint>& points,
+                             const std::vector<scene::Bounds>& boxes, const Control& control) {
+  std::vector<scene::Bounds> structures;
+  for (const scene::Bounds& box : boxes)
+    add_structures(source, points, box, most_rounds, structures, control);
+  double largest = 0;
+  for (const scene::Bounds& box : structures) largest = std::max(largest, volume_of(box));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      structures, [&](const scene::Bounds& box) { return volume_of(box) >= least_structure * largest; }));
 }
 
 }  // namespace
@@ -172,9 +213,13 @@ Regions detail_regions(const rays::TransportSource& source, const Control& contr
   const bool bodies = in_hall && !std::ranges::all_of(regions.boxes, [&](const scene::Bounds& box) {
                         return has_rooms(source, box);
                       });
-  if (undivided || bodies || regions.boxes.size() > most_regions) return {{bounds}, false};
-  std::ranges::stable_sort(regions.boxes, std::greater<>(), volume_of);
-  regions.open_rest = true;
+  if (undivided || bodies || regions.boxes.size() > most_regions) {
+    regions.boxes = {bounds};
+  } else {
+    std::ranges::stable_sort(regions.boxes, std::greater<>(), volume_of);
+    regions.open_rest = true;
+  }
+  regions.structures = count_structures(source, points, regions.boxes, control);
   return regions;
 }
 

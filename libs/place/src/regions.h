@@ -10,6 +10,8 @@ namespace ssphh::place {
 struct Regions {
   std::vector<scene::Bounds> boxes;  ///< the largest first; each takes a grid
   bool open_rest = false;            ///< what lies outside is open: it takes a sparse grid of its own
+  /// What stands apart in them with the open between, as houses of a town do; mere lamp posts do not count.
+  std::size_t structures = 1;
 };
 
 /// Of an axis-aligned box [m³].

@@ -16,7 +16,7 @@ TEST(Defaults, OfPlacement) {
   EXPECT_EQ(params.count, 0);
   EXPECT_EQ(params.clearance, 0.04f);
   EXPECT_EQ(params.levels, 1);
-  EXPECT_EQ(params.max_probes, 4096);
+  EXPECT_EQ(params.max_probes, 65536);
   const PlacedProbe probe;
   EXPECT_EQ(probe, (PlacedProbe{"", vec3(0), 0.1f, PlaceKind::grid, 0, 0, 0}));
   EXPECT_EQ(PlacedEdge(), (PlacedEdge{0, 0, false}));

@@ -163,7 +163,7 @@ TEST(PlaceRules, LimitsAreNamedWithWhatWasGiven) {
   EXPECT_THAT(said([](PlaceParams& p) { p.clearance = INFINITY; }), HasSubstr("the clearance must be"));
   EXPECT_THAT(
       said([](PlaceParams& p) { p.spacing = 0.01f; }),
-      HasSubstr("a spacing of 0.01 m gives more than 4096 probes (use a larger spacing, or --probes N for a "
+      HasSubstr("a spacing of 0.01 m gives more than 65536 probes (use a larger spacing, or --probes N for a "
                 "number of probes)"));
   EXPECT_THAT(said([](PlaceParams& p) { p.count = 100; }), HasSubstr("probes of 100 find a place"));
   EXPECT_THAT(said([](PlaceParams& p) {

@@ -322,7 +322,7 @@ TEST(Place, SaysWhatIsWrong) {
   EXPECT_THAT(message([](PlaceParams& p) { p.spacing = -1; }), HasSubstr("spacing must be"));
   EXPECT_THAT(message([](PlaceParams& p) { p.spacing = NAN; }), HasSubstr("spacing must be"));
   EXPECT_THAT(message([](PlaceParams& p) { p.spacing = INFINITY; }), HasSubstr("spacing must be"));
-  EXPECT_THAT(message([](PlaceParams& p) { p.spacing = 1e-6f; }), HasSubstr("more than 4096 probes"));
+  EXPECT_THAT(message([](PlaceParams& p) { p.spacing = 1e-6f; }), HasSubstr("more than 65536 probes"));
   EXPECT_THAT(message([](PlaceParams& p) { p.max_probes = 20; }), HasSubstr("more than 20 probes"));
   EXPECT_THAT(message([](PlaceParams& p) { p.clearance = 0; }), HasSubstr("clearance"));
   EXPECT_THAT(message([](PlaceParams& p) { p.levels = 9; }), HasSubstr("levels"));

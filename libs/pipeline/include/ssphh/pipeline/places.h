@@ -13,7 +13,7 @@ namespace ssphh::pipeline {
 struct PlaceOptions {
   std::string probes;  ///< scene, auto, auto:METRES or a number; empty: the caller's default
   float clearance = 0.04f;
-  int levels = 1, max_probes = 4096;
+  int levels = 1, max_probes = 65536;
 };
 
 /// What is wrong with `probes`, as one of these words; empty: nothing.

@@ -22,7 +22,7 @@ struct PlaceParams {
   int count = 0;
   float clearance = 0.04f;                ///< from a surface [m]; at most a tenth of the spacing is asked for
   int levels = 1;                         ///< times that the grid may be halved near surfaces, 0..3
-  int max_probes = 4096;                  ///< more are an Error, not a long wait
+  int max_probes = 65536;                 ///< more are an Error, not a long wait
   std::vector<scene::ProbePlace> manual;  ///< kept as they are, first in the placement
   std::vector<vec3> interest;             ///< places that somebody is or light comes from: cameras, lamps
 };
