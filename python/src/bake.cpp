@@ -104,13 +104,14 @@ ProbesHandle bake_probes(const LoadedScene& scene, const py::object& output, con
   const std::filesystem::path checkpoint = path.empty() ? "" : path + ".checkpoint";
   const pipeline::PlaceOptions places{places_in_words(probes), clearance, refine, max_probes};
   return run(progress, [&](const Control& control) {
-    if (!resume && !path.empty()) std::filesystem::remove(checkpoint);
+    if (!resume && !path.empty()) pipeline::remove_checkpoint(checkpoint);
+    const bool tiles = probes::is_tile_folder(path);
+    if (tiles) o.tiles = path;
     pipeline::SceneBake baked =
         pipeline::bake_scene(scene.geometry(), scene.scene(), scene.time(), places, o, checkpoint, control);
-    if (!path.empty()) {
-      probes::write_probe_file(baked.set, path);
-      std::filesystem::remove(checkpoint);
-    }
+    if (tiles) baked.set = probes::read_probe_file(path);
+    if (!path.empty() && !tiles) probes::write_probe_file(baked.set, path);
+    if (!path.empty()) pipeline::remove_checkpoint(checkpoint);
     return std::make_shared<probes::ProbeSet>(std::move(baked.set));
   });
 }

@@ -190,8 +190,10 @@ void add_bake_command(Command app, Context& context) {
       });
   add_scene_options(command, o.scene);
   add_place_options(command, o.place);
-  add_probe_file(command, "-o,--output", o.output,
-                 "Probe file to write: .sphl (binary) or .sphl.json (JSON, five digits)")
+  add_probe_file(
+      command, "-o,--output", o.output,
+      "Probe file to write: .sphl (binary), .sphl.json (JSON, five digits), or .tiles: a folder with a "
+      "probe file for each part of a large scene")
       .required();
   command.option("--degree", o.degree, "Highest spherical harmonics band, 0..10").range(0, sh::max_degree);
   command.choice(

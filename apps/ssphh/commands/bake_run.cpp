@@ -39,6 +39,7 @@ void run_full_bake(const BakeOptions& o, BakeResult& result, BakeWatcher& watche
   if (session) farm.emplace(session->options(), scene, o.scene.time);
   std::optional<CyclesCrew> cycles;
   pipeline::BakeSettings settings = o;
+  if (probes::is_tile_folder(o.output)) settings.tiles = o.output;
   if (by_cycles && !session) {
     cycles.emplace(geometry, scene, o.scene.time,
                    CyclesOptions{o.output + ".cycles", o.threads, std::chrono::seconds(o.time_limit)});
@@ -48,7 +49,7 @@ void run_full_bake(const BakeOptions& o, BakeResult& result, BakeWatcher& watche
     if (!settings.records) settings.records = 0;  // they would hold our light
   }
   const std::filesystem::path checkpoint = checkpoint_of(o);
-  if (!o.resume) std::filesystem::remove(checkpoint);
+  if (!o.resume) pipeline::remove_checkpoint(checkpoint);
   pipeline::SceneBake& baked = result;
   bake::BakeCrew* const crew = farm ? static_cast<bake::BakeCrew*>(&*farm) : cycles ? &*cycles : nullptr;
   baked = pipeline::bake_scene(geometry, scene, o.scene.time, o.place, settings, checkpoint, control, crew);
@@ -72,13 +73,15 @@ BakeResult run_bake_watched(const BakeOptions& options, BakeWatcher& watcher, co
     throw Error("--only-probes, --only-box and --only-lights",
                 "are of an update: the rest is taken from its file", "give --update FILE, too");
   BakeResult result;
+  if (probes::is_tile_folder(options.output) && (options.watch || !options.update.empty()))
+    throw Error(options.output, "tiles are not updated", "write a .sphl file, or bake them anew");
   if (options.update.empty()) {
     run_full_bake(options, result, watcher, control);
   } else {
     run_bake_update(options, result, watcher, control);
   }
-  probes::write_probe_file(result.set, options.output);
-  std::filesystem::remove(checkpoint_of(options));
+  if (!probes::is_tile_folder(options.output)) probes::write_probe_file(result.set, options.output);
+  pipeline::remove_checkpoint(checkpoint_of(options));
   result.geometry_builds = builds.count();
   return result;
 }
@@ -115,6 +118,7 @@ json::Value to_json(const BakeResult& r, const BakeOptions& o) {
                         {"gen_seconds", r.paths.gen_seconds},
                         {"viz_seconds", viz_seconds(r)},
                         {"transport_seconds", if_any(solved, t.seconds)},
+                        {"tiles", t.tiles},
                         {"surfels", if_any(network, t.surfels)},
                         {"links", if_any(network, t.links)},
                         {"iterations", if_any(solved, t.iterations)},
@@ -122,8 +126,8 @@ json::Value to_json(const BakeResult& r, const BakeOptions& o) {
                         {"solve_error", if_any(op == probes::LightOperator::surfel, t.error)},
                         {"fitted", r.set.fitted ? r.set.fitted->points.size() : 0},
                         {"fit_seconds", if_any(r.set.fitted.has_value(), t.fit_seconds)},
-                        {"records", r.set.surface ? r.set.surface->points.size() : 0},
-                        {"record_seconds", if_any(r.set.surface.has_value(), t.record_seconds)},
+                        {"records", r.set.surface ? r.set.surface->points.size() : t.records},
+                        {"record_seconds", if_any(r.set.surface || t.records > 0, t.record_seconds)},
                         {"rays", r.paths.rays + t.rays},
                         {"resumed", r.paths.resumed},
                         {"viz", r.viz == VizMethod::none ? "off" : name_of(r.viz)},
@@ -146,6 +150,8 @@ std::string to_text(const BakeResult& r, const BakeOptions& o) {
       counted(r.set.light_groups.size(), "light group"), counted(probes::edge_count(r.set), "edge"));
   const bake::TransportBakeReport& t = r.transport;
   const bool path = r.set.generator.op == probes::LightOperator::path;
+  if (t.tiles > 1) text += fmt::format("\n{} tiles", t.tiles);
+  if (t.resumed > 0) text += fmt::format(", {} of them taken from an earlier run", t.resumed);
   if (t.surfels > 0) {
     text += fmt::format("\n{} of {}, {}", counted(t.surfels, "surfel"),
                         sizes_text(t.finest_surfel, t.coarsest_surfel), counted(t.links, "link"));
@@ -156,9 +162,10 @@ std::string to_text(const BakeResult& r, const BakeOptions& o) {
       text += fmt::format("; {:.2f} s", t.seconds);
     }
   }
-  if (r.set.surface && t.record_seconds > 0)
+  if (t.records > 0)
     text += fmt::format("\nlight kept at {} in {:.2f} s",
-                        counted(r.set.surface->points.size(), "surface point"), t.record_seconds);
+                        counted(r.set.surface ? r.set.surface->points.size() : t.records, "surface point"),
+                        t.record_seconds);
   if (const std::vector<std::string> baked = kept_groups(r.set); !baked.empty())
     text += fmt::format("\ndirect light kept, too, of {}", fmt::join(baked, ", "));
   if (r.set.fitted && t.fit_seconds > 0)

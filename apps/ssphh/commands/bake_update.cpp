@@ -147,8 +147,9 @@ struct Update {
     params.viz = params.viz && edges;
     params.fit = params.fit && !options.only.any();
     const float edge_change = options.tolerance.value_or(link_noise);
-    bake::TransportUpdate found = bake::update_transport(trace::TransportScene(geometry, scene), set, params,
-                                                         scope, edge_change, result.transport, control);
+    bake::TransportUpdate found =
+        bake::update_in_tiles(trace::TransportScene(geometry, scene), set, params, bake::most_probes_in_tile,
+                              scope, edge_change, result.transport, control);
     if (edges && set.generator.viz == VizMethod::path) {
       bake::BakeParams viz = params_of(set);
       viz.keep_light = true;

@@ -102,7 +102,7 @@ void add_hier_command(Command app, Context& context) {
   auto [command, o] =
       add_command(app, context, "hier", "Add each probe's neighbours to its light (HIER)", run_hier);
   add_probe_file(command, "FILE", o.input, "Probe file of `ssphh bake`").required();
-  add_probe_file(command, "-o,--output", o.output, "Probe file to write: .sphl or .sphl.json").required();
+  add_probe_output(command, "-o,--output", o.output, "Probe file to write: .sphl or .sphl.json").required();
   command.choice(
       "--operator", o.params.op,
       "What H (x) S means: coefficient (the paper's, coefficient by coefficient, and a factor that "

@@ -53,7 +53,7 @@ void add_probe_blend_command(Command group, Context& context) {
   add_probe_file(command, "FROM", o.from, "Probe file at t = 0").required();
   add_probe_file(command, "TO", o.to, "Probe file at t = 1").required();
   command.option("--t", o.t, "Share of TO").range(0.0, 1.0);
-  add_probe_file(command, "-o,--output", o.output, "Probe file to write").required();
+  add_probe_output(command, "-o,--output", o.output, "Probe file to write").required();
 }
 
 }  // namespace ssphh::app

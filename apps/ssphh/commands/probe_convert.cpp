@@ -112,7 +112,7 @@ void add_probe_convert_command(Command group, Context& context) {
       add_command(group, context, "convert",
                   "Convert between .sphl (binary) and .sphl.json, and to fewer bytes", run_probe_convert);
   add_probe_file(command, "FILE", o.input, "Probe file to read").required();
-  add_probe_file(command, "-o,--output", o.output, "Probe file to write").required();
+  add_probe_output(command, "-o,--output", o.output, "Probe file to write").required();
   command.choice(
       "--pack", o.pack,
       "How .sphl holds light: floats; half floats; RGB9E5 and bytes; the same of ZH3 (degree 2); maps of "

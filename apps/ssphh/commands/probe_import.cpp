@@ -219,7 +219,7 @@ void add_probe_import_command(Command group, Context& context) {
       "become the edge from it, as VIZ finds it");
   command.choice("--viz-source", o.viz_source, "How bright that sphere was, as exported");
   command.option("--degree", o.degree, "Highest band of a new set").range(0, sh::max_degree);
-  add_probe_file(command, "-o,--output", o.output, "Probe file to write; may be that of --into").required();
+  add_probe_output(command, "-o,--output", o.output, "Probe file to write; may be that of --into").required();
   command.footer("A set for a whole scene: --scene for the first picture, --into for the others.");
 }
 

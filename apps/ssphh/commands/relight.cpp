@@ -62,9 +62,9 @@ void add_output_options(const Command& output, RelightOptions& o) {
   output.option("--spp", o.spp, "Samples per pixel").range(1, 65536);
   add_exposure_option(output, o.exposure,
                       "Of .png frames, in stops; auto: what suits the first that is not black");
-  add_probe_file(output, "--save", o.save,
-                 "Write the probes of the last frame here; with --key-frames those of every key, numbered: "
-                 "door-0.sphl ...");
+  add_probe_output(output, "--save", o.save,
+                   "Write the probes of the last frame here; with --key-frames those of every key, numbered: "
+                   "door-0.sphl ...");
 }
 
 }  // namespace

@@ -14,6 +14,8 @@
 #include <ssphh/image/io.h>
 #include <ssphh/pipeline/draw_marks.h>
 #include <ssphh/probes/keyed_files.h>
+#include <ssphh/probes/tile_folder.h>
+#include <ssphh/trace/transport_scene.h>
 
 #include "commands/command.h"
 #include "options/probe_options.h"
@@ -94,7 +96,13 @@ Hash128 content_hash(const RenderOptions& o, const scene::Scene& scene) {
   for (const std::string& parameter : o.parameters) hasher.text(parameter);
   if (!o.probes.empty()) {
     const std::vector<probes::ProbeKey> keys = probes::read_probe_keys(o.probes);
-    for (const probes::ProbeKey& key : keys) hasher.bytes(read_file(key.file));
+    for (const probes::ProbeKey& key : keys) {
+      if (probes::is_tile_folder(key.file)) {
+        hasher.text(probes::TileFolder(key.file).content().hex());
+      } else {
+        hasher.bytes(read_file(key.file));
+      }
+    }
     if (keys.size() > 1) hasher.text(o.probes);
     hasher.text(name_of(o.lookup.method)).text(name_of(o.lookup.layer));
     hasher.text(o.lookup.weights ? name_of(*o.lookup.weights) : "");
@@ -107,7 +115,10 @@ std::optional<MethodFigures> render_here(const trace::SharedGeometry& geometry, 
                                          trace::RenderState& state, sketch::Sketch& drawn,
                                          const Control& control, const trace::SeePass& see) {
   std::optional<probes::ProbeSet> set;
-  if (!o.probes.empty()) set = read_probes(o, scene);
+  if (!o.probes.empty()) {
+    set = pipeline::read_probes_in_view(scene, o.probes, o.scene.time, o.force,
+                                        trace::TransportScene(geometry, scene), params);
+  }
   const pipeline::LightFinder finder{o.method, o.parameters, set ? &*set : nullptr, o.probes, o.lookup};
   return pipeline::render_scene(geometry, scene, o.scene.time, finder, params, state, control, drawings_of(o),
                                 &drawn, see);

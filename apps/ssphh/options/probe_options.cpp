@@ -1,6 +1,7 @@
 #include "options/probe_options.h"
 
 #include <ssphh/probes/keyed_files.h>
+#include <ssphh/probes/tile_folder.h>
 
 namespace ssphh::app {
 namespace {
@@ -27,7 +28,7 @@ std::string probe_keys_problem(const std::string& text) {
 
 Option add_probe_keys(const Command& command, const std::string& names, std::string& files,
                       const std::string& help) {
-  return command.option(names, files, help).check(probe_keys_problem, ".sphl|.sphl.json");
+  return command.option(names, files, help).check(probe_keys_problem, ".sphl|.sphl.json|.tiles");
 }
 
 Option add_keyed_probes(const Command& command, const std::string& names, std::string& files,
@@ -41,12 +42,21 @@ Option add_keyed_probes(const Command& command, const std::string& names, std::s
 
 Option add_probe_file(const Command& command, const std::string& names, std::string& file,
                       const std::string& help) {
-  return command.option(names, file, help).check(probe_file_problem, ".sphl|.sphl.json");
+  return command.option(names, file, help).check(probe_file_problem, ".sphl|.sphl.json|.tiles");
+}
+
+Option add_probe_output(const Command& command, const std::string& names, std::string& file,
+                        const std::string& help) {
+  const auto problem = [](const std::string& name) -> std::string {
+    return probes::is_tile_folder(name) ? "only a bake writes tiles: choose a name that ends in .sphl"
+                                        : probe_file_problem(name);
+  };
+  return command.option(names, file, help).check(problem, ".sphl|.sphl.json");
 }
 
 Option add_probe_files(const Command& command, const std::string& names, std::vector<std::string>& files,
                        const std::string& help) {
-  return command.option(names, files, help).check(probe_file_problem, ".sphl|.sphl.json");
+  return command.option(names, files, help).check(probe_file_problem, ".sphl|.sphl.json|.tiles");
 }
 
 Option add_force_option(Command command, bool& force) {

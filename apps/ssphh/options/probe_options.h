@@ -15,6 +15,9 @@ namespace ssphh::app {
 /// Options whose values must be named as a probe file is: anything else is wrong usage, before any work.
 Option add_probe_file(const Command& command, const std::string& names, std::string& file,
                       const std::string& help);
+/// The same of one to write, which is no folder of tiles.
+Option add_probe_output(const Command& command, const std::string& names, std::string& file,
+                        const std::string& help);
 Option add_probe_files(const Command& command, const std::string& names, std::vector<std::string>& files,
                        const std::string& help);
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -56,10 +57,10 @@ void warn_of(const std::vector<std::string>& names, std::string_view of_one, std
                                         names.size() > most ? ", ..." : ""));
 }
 
-void check_light(const transport::TransportNetwork& network, const probes::ProbeSet& set,
+void check_light(const transport::TransportNetwork& network, const probes::ProbeSet& set, std::size_t count,
                  TransportBakeReport& report) {
   std::vector<std::string> inside, dark;
-  for (std::size_t i = 0; i < set.probes.size(); ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     const probes::Probe& probe = set.probes[i];
     if (back_share(network.gbuffer(), i) > 0.5f) {
       inside.push_back(probe.name);
@@ -104,28 +105,46 @@ void find_records(transport::RelightSession& session, probes::ProbeSet& set,
   const Stopwatch watch;
   renew_records(session, set, params, scope, control);
   report.record_seconds = watch.seconds();
+  report.records = set.surface ? set.surface->points.size() : 0;
 }
 
-/// Of these probes alone; none: of all.
+/// How many probes are asked for.
+std::size_t own_count(const probes::ProbeSet& set, const TransportBakeParams& params) {
+  return params.own_probes > 0 ? std::min(params.own_probes, set.probes.size()) : set.probes.size();
+}
+
+/// Edges to the probes that are asked for; none: between all.
+std::optional<transport::LinkVizScope> own_edges(const probes::ProbeSet& set,
+                                                 const TransportBakeParams& params) {
+  if (own_count(set, params) == set.probes.size()) return std::nullopt;
+  transport::LinkVizScope scope{std::vector<std::uint32_t>(own_count(set, params)),
+                                std::vector<std::uint32_t>(set.probes.size())};
+  std::iota(scope.to.begin(), scope.to.end(), 0u);
+  std::iota(scope.from.begin(), scope.from.end(), 0u);
+  return scope;
+}
+
+/// Edges to these probes from one another and from those that theirs come from.
+transport::LinkVizScope edges_to(const probes::ProbeSet& set, const std::vector<std::uint32_t>& which) {
+  transport::LinkVizScope scope{which, which};
+  for (const std::uint32_t i : which) {
+    require(i < set.probes.size(), "update of edges", "there is no probe of that index");
+    for (const probes::Edge& edge : set.probes[i].edges)
+      scope.from.push_back(static_cast<std::uint32_t>(edge.from));
+  }
+  return scope;
+}
+
 void find_edges(const transport::TransportNetwork& network, const rays::TransportSource& source,
                 probes::ProbeSet& set, const transport::LinkVizParams& params,
-                const std::optional<std::vector<std::uint32_t>>& which, TransportBakeReport& report,
+                const std::optional<transport::LinkVizScope>& scope, TransportBakeReport& report,
                 const Control& control) {
-  if (which && which->empty()) return;
+  if (scope && scope->to.empty()) return;
   const Stopwatch watch;
-  std::optional<transport::LinkVizScope> scope;
-  if (which) {
-    scope = {*which, *which};
-    for (const std::uint32_t i : *which) {
-      require(i < set.probes.size(), "update of edges", "there is no probe of that index");
-      for (const probes::Edge& edge : set.probes[i].edges)
-        scope->from.push_back(static_cast<std::uint32_t>(edge.from));
-    }
-  }
   std::vector<std::vector<probes::Edge>> edges = transport::viz_from_links(
       network, source, set.probes, set.degree, params, control, scope ? &*scope : nullptr);
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (!which || std::ranges::binary_search(*which, i)) set.probes[i].edges = std::move(edges[i]);
+    if (!scope || std::ranges::binary_search(scope->to, i)) set.probes[i].edges = std::move(edges[i]);
   }
   set.generator.viz = probes::VizMethod::links;
   set.generator.viz_source = params.source;
@@ -252,10 +271,11 @@ probes::ProbeSet bake_transport(const rays::TransportSource& source, probes::Pro
 
   report.seconds = watch.seconds();
   if (params.records.points > 0) find_records(session, set, params.records, {}, report, control);
-  if (params.viz) find_edges(network, source, set, params.viz_params, {}, report, control);
+  if (params.viz)
+    find_edges(network, source, set, params.viz_params, own_edges(set, params), report, control);
   if (params.fit) fit(session, source, set, params.fit_params, report, control);
   report.rays = source.rays_traced() - rays_before;
-  check_light(network, set, report);
+  check_light(network, set, own_count(set, params), report);
   probes::validate(set, "bake");
   tell_warnings(report);
   return set;
@@ -275,7 +295,10 @@ void add_transport(const rays::TransportSource& source, probes::ProbeSet& set,
                                     set.generator.time, control);
   const transport::TransportNetwork& network = session.network();
   describe_network(network, set, report);
-  if (edges) find_edges(network, source, set, params.viz_params, scope.edges, report, control);
+  if (edges) {
+    find_edges(network, source, set, params.viz_params,
+               scope.edges ? edges_to(set, *scope.edges) : own_edges(set, params), report, control);
+  }
   if (params.fit) {
     session.update(session.lighting(), control);
     fit(session, source, set, params.fit_params, report, control);
@@ -303,7 +326,7 @@ TransportUpdate update_transport(const rays::TransportSource& source, probes::Pr
   set.hierarchy.reset();
 
   TransportUpdate update;
-  std::vector<std::uint32_t> edges_to;
+  std::vector<std::uint32_t> changed_much;
   for (std::size_t i = 0; i < before.size(); ++i) {
     std::vector<probes::GroupLight>& now = set.probes[i].groups;
     for (std::size_t g = 0; g < now.size(); ++g) {
@@ -311,16 +334,19 @@ TransportUpdate update_transport(const rays::TransportSource& source, probes::Pr
     }
     update.changed.push_back(changed_share(light_of(before[i]), light_of(set.probes[i])));
     if (now != before[i].groups) update.probes.push_back(static_cast<std::uint32_t>(i));
-    if (update.changed[i] > edge_change) edges_to.push_back(static_cast<std::uint32_t>(i));
+    if (update.changed[i] > edge_change) changed_much.push_back(static_cast<std::uint32_t>(i));
   }
 
   report.seconds = watch.seconds();
   if (params.records.points > 0) find_records(session, set, params.records, scope, report, control);
-  if (params.viz) find_edges(session.network(), source, set, params.viz_params, edges_to, report, control);
+  if (params.viz) {
+    find_edges(session.network(), source, set, params.viz_params, edges_to(set, changed_much), report,
+               control);
+  }
   if (params.fit) fit(session, source, set, params.fit_params, report, control);
   probes::merge_groups(set);
   report.rays = source.rays_traced() - rays_before;
-  check_light(session.network(), set, report);
+  check_light(session.network(), set, own_count(set, params), report);
   probes::validate(set, "bake");
   tell_warnings(report);
   return update;

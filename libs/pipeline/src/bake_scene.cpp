@@ -21,6 +21,10 @@ namespace {
 
 using probes::VizMethod;
 
+std::filesystem::path tiles_of(const std::filesystem::path& checkpoint) {
+  return checkpoint.string() + ".tiles";
+}
+
 void refuse(const std::vector<std::string>& given, const char* needs) {
   if (!given.empty()) throw Error(given.front(), needs);
 }
@@ -50,11 +54,16 @@ int records_of(const BakeSettings& o, std::size_t probes, bool keeps_asked) {
   return static_cast<int>(std::min(flats * o.usual_records, most));
 }
 
+/// Whether one network need not serve all probes.
+bool in_tiles(const BakeSettings& o) {
+  return o.op != probes::LightOperator::bounce && !o.transport.fit;
+}
+
 /// Decides on VIZ, which it returns, and refuses options that would have no effect. `keeps_asked`: the scene
 /// asks to keep a group's direct light.
-probes::VizMethod resolve(BakeSettings& o, std::size_t probes, bool farm, bool keeps_asked) {
-  const probes::LightOperator op = operator_of(o, probes, farm);
-  o.op = op;
+probes::VizMethod resolve(BakeSettings& o, std::size_t probes, std::size_t tiles, bool farm,
+                          bool keeps_asked) {
+  const probes::LightOperator op = *o.op;
   const bool path = op == probes::LightOperator::path, transfer = o.params.viz_params.matrix;
   bake::BakeParams& params = o.params;
   if (!o.viz) {
@@ -79,7 +88,7 @@ probes::VizMethod resolve(BakeSettings& o, std::size_t probes, bool farm, bool k
   params.viz_path = {o.viz_max_depth.value_or(params.path.max_depth),
                      o.viz_passes.value_or(params.path.passes), o.viz_spp.value_or(params.path.spp),
                      params.path.seed};
-  o.transport.records.points = o.records.value_or(records_of(o, probes, keeps_asked));
+  o.transport.records.points = o.records.value_or(records_of(o, probes / tiles, keeps_asked));
   if (o.transport.records.points == 0 && keeps_asked)
     throw Error("--records 0", "leaves no place for the light of groups that are baked",
                 "leave it out, or bake no group's direct light: --light-mode GROUP=mixed");
@@ -108,10 +117,41 @@ bool fit_into_memory(BakeSettings& o) {
   return true;
 }
 
+/// By transport, as settings that are resolved ask for.
+void transport(SceneBake& result, const BakeSettings& o, std::span<const probes::Tile> tiles,
+               const trace::TransportScene& source, const scene::Scene& scene,
+               const std::filesystem::path& checkpoint, const Control& control) {
+  const bool path = o.op == probes::LightOperator::path;
+  bake::TiledParams params{o.transport, path};
+  if (!o.tiles.empty()) {
+    const auto modes = bake::light_modes(scene, o.transport.records.points > 0);
+    params.finish = [&source, modes](probes::ProbeSet& tile) {
+      bake::set_light_modes(source, tile, modes, {});
+    };
+    probes::TileFolder folder(o.tiles, bake::tiled_key(source, result.set, tiles, params),
+                              {tiles.begin(), tiles.end()});
+    bake::transport_into_folder(source, result.set, tiles, params, folder, result.transport, control);
+    result.set.light_groups = folder.read(0).light_groups;
+    return;
+  }
+  if (tiles.size() > 1) {
+    std::optional<probes::TileFolder> folder;
+    if (!checkpoint.empty())
+      folder.emplace(tiles_of(checkpoint), bake::tiled_key(source, result.set, tiles, params),
+                     std::vector(tiles.begin(), tiles.end()));
+    bake::transport_in_tiles(source, result.set, tiles, params, folder ? &*folder : nullptr, result.transport,
+                             control);
+  } else if (path) {
+    bake::add_transport(source, result.set, o.transport, result.transport, control);
+  } else {
+    result.set = bake::bake_transport(source, std::move(result.set), o.transport, result.transport, control);
+  }
+}
+
 /// Fills the result's set, which INIT made, by settings that are resolved.
-void fill(SceneBake& result, const BakeSettings& o, const trace::SharedGeometry& geometry,
-          const scene::Scene& scene, float time, const std::filesystem::path& checkpoint,
-          bake::BakeCrew* crew, const Control& control) {
+void fill(SceneBake& result, const BakeSettings& o, std::span<const probes::Tile> tiles,
+          const trace::SharedGeometry& geometry, const scene::Scene& scene, float time,
+          const std::filesystem::path& checkpoint, bake::BakeCrew* crew, const Control& control) {
   const bool path = o.op == probes::LightOperator::path;
   const bool links = o.transport.viz;
   probes::Baseline baseline{links ? o.transport.viz_params.neighbors : o.params.viz_params.neighbors,
@@ -121,13 +161,8 @@ void fill(SceneBake& result, const BakeSettings& o, const trace::SharedGeometry&
                             scene::scene_items(scene, time),
                             {}};
   if (!path || o.transport.fit || o.transport.viz || o.transport.records.points > 0) {
-    const trace::TransportScene source(geometry, scene);
-    if (path) {
-      bake::add_transport(source, result.set, o.transport, result.transport, control);
-    } else {
-      result.set =
-          bake::bake_transport(source, std::move(result.set), o.transport, result.transport, control);
-    }
+    transport(result, o, tiles, trace::TransportScene(geometry, scene), scene, checkpoint, control);
+    if (!o.tiles.empty()) return;
   }
   if (path || o.params.viz) {
     const trace::PathTracer tracer(geometry, scene, time);
@@ -183,11 +218,21 @@ SceneBake bake_scene(const trace::SharedGeometry& geometry, const scene::Scene& 
   for (const std::string& line : bake::blurred_shadows(scene)) log_warning("{}", line);
   const bool keeps_asked = std::ranges::any_of(
       scene.light_modes, [](const scene::GroupMode& asked) { return scene::keeps_direct(asked.mode); });
-  result.viz = resolve(o, result.set.probes.size(), crew != nullptr, keeps_asked);
+  o.op = operator_of(o, result.set.probes.size(), crew != nullptr);
+  if (!o.tiles.empty() && o.op != probes::LightOperator::surfel)
+    throw Error(o.tiles.string(), fmt::format("light by operator {} is not baked in tiles", name_of(*o.op)),
+                "use --operator surfel, or write a .sphl file");
+  if (!o.tiles.empty() && o.transport.fit)
+    throw Error(o.tiles.string(), "weights are not fitted in tiles",
+                "leave out --fit, or write a .sphl file");
+  const std::vector<probes::Tile> tiles = bake::make_tiles(
+      result.set, in_tiles(o) ? o.most_probes_in_tile : std::max<std::size_t>(result.set.probes.size(), 1));
+  if (tiles.size() > 1) log_info("{} probes are lit in {} tiles", result.set.probes.size(), tiles.size());
+  result.viz = resolve(o, result.set.probes.size(), tiles.size(), crew != nullptr, keeps_asked);
   o.transport.records.baked = bake::baked_indices(bake::light_modes(scene, o.transport.records.points > 0));
 
   const bool limited = fit_into_memory(o);
-  fill(result, o, geometry, scene, time, checkpoint, crew, control);
+  fill(result, o, tiles, geometry, scene, time, checkpoint, crew, control);
   bake::TransportBakeReport& t = result.transport;
   if (limited && t.coarsest_surfel > t.finest_surfel) {
     t.warnings.push_back(
@@ -197,6 +242,12 @@ SceneBake bake_scene(const trace::SharedGeometry& geometry, const scene::Scene& 
     log_warning("{}", t.warnings.back());
   }
   return result;
+}
+
+void remove_checkpoint(const std::filesystem::path& checkpoint) {
+  std::filesystem::remove(checkpoint);
+  if (const std::filesystem::path tiles = tiles_of(checkpoint); std::filesystem::exists(tiles / "tiles.json"))
+    probes::TileFolder(tiles).remove();
 }
 
 probes::ProbeSet bake_surfaces(const trace::SharedGeometry& geometry, const scene::Scene& scene, float time,

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <functional>
+#include <numeric>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,8 +11,11 @@
 #include <ssphh/place/place.h>
 #include <ssphh/probes/keyed_files.h>
 #include <ssphh/probes/probe_file.h>
+#include <ssphh/probes/probe_limits.h>
+#include <ssphh/probes/tile_folder.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/study/default_view.h>
+#include <ssphh/trace/primary_rays.h>
 
 namespace ssphh::pipeline {
 namespace {
@@ -54,13 +59,23 @@ void require_same_scene(const std::string& file, const probes::ProbeSet& set, co
   log_warning("{}: {}", file, problem);
 }
 
+namespace {
+
+probes::ProbeSet held_against(const scene::Scene& scene, const std::string& file, probes::ProbeSet set,
+                              std::optional<float> time, bool force) {
+  require_same_scene(file, set, scene, scene::light_groups(scene), time, force);
+  if (bake::mode_difference(set, scene).empty()) bake::adopt_modes(set, scene);
+  return set;
+}
+
+}  // namespace
+
 probes::ProbeSet read_probes_of(const scene::Scene& scene, const std::string& file, std::optional<float> time,
                                 bool force) {
   probes::ProbeSet set;
   if (const std::vector<probes::ProbeKey> keys = probes::read_probe_keys(file);
       keys.size() == 1 && !keys.front().time) {
-    set = probes::read_probe_file(file);
-    require_same_scene(file, set, scene, scene::light_groups(scene), time, force);
+    return held_against(scene, file, probes::read_probe_file(file), time, force);
   } else {
     const std::vector<probes::KeyedSet> sets = probes::read_keyed_sets(keys);
     for (const probes::KeyedSet& key : sets)
@@ -72,6 +87,58 @@ probes::ProbeSet read_probes_of(const scene::Scene& scene, const std::string& fi
   }
   if (bake::mode_difference(set, scene).empty()) bake::adopt_modes(set, scene);
   return set;
+}
+
+namespace {
+
+/// Where a few thousand of the picture's rays meet still surfaces.
+std::vector<vec3> surfaces_in_view(const rays::TransportSource& source, const trace::RenderParams& params) {
+  constexpr int across = 160, down = 90;
+  const auto ray_at = trace::primary_rays(params);
+  std::vector<rays::RayQuery> rays;
+  for (int i = 0; i < across * down; ++i) {
+    rays.push_back(
+        ray_at((static_cast<float>(i % across) + 0.5f) * static_cast<float>(params.width) / across,
+               (static_cast<float>(i / across) + 0.5f) * static_cast<float>(params.height) / down));
+  }
+  std::vector<rays::RayHit> hits(rays.size());
+  source.intersect(0, rays, hits);
+  std::vector<vec3> surfaces;
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    if (!hits[i].escaped()) surfaces.push_back(rays[i].origin + hits[i].distance * rays[i].direction);
+  return surfaces;
+}
+
+/// As many as a set may have probes.
+std::vector<std::size_t> most_seen(std::span<const probes::Tile> tiles, std::span<const vec3> surfaces) {
+  std::vector<std::size_t> order(tiles.size()), seen(tiles.size(), 0), chosen;
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (const vec3& at : surfaces) {
+    for (std::size_t t = 0; t < tiles.size(); ++t) seen[t] += tiles[t].box.contains(at) ? 1 : 0;
+  }
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t t) { return seen[t]; });
+  std::size_t probes = 0;
+  for (const std::size_t t : order) {
+    probes += tiles[t].own;
+    if (probes > probes::limits::probes || (seen[t] == 0 && !chosen.empty())) break;
+    chosen.push_back(t);
+  }
+  std::ranges::sort(chosen);
+  return chosen;
+}
+
+}  // namespace
+
+probes::ProbeSet read_probes_in_view(const scene::Scene& scene, const std::string& file,
+                                     std::optional<float> time, bool force,
+                                     const rays::TransportSource& source, const trace::RenderParams& params) {
+  if (!probes::is_tile_folder(file)) return read_probes_of(scene, file, time, force);
+  const probes::TileFolder folder(file);
+  if (probes::probe_count(folder.tiles()) <= probes::limits::probes)
+    return read_probes_of(scene, file, time, force);
+  const std::vector<std::size_t> which = most_seen(folder.tiles(), surfaces_in_view(source, params));
+  log_info("{} of the {} tiles of {} are in the picture", which.size(), folder.tiles().size(), file);
+  return held_against(scene, file, folder.join(which), time, force);
 }
 
 std::vector<vec3> viewpoints(const scene::Scene& scene, const rays::TransportSource& source,

@@ -1,7 +1,10 @@
 /// The steps of placement one by one: links, rooms, passages, ways of doors, grids.
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
+#include <ssphh/core/random.h>
 #include <ssphh/place/sweep.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/scene/primitives.h>
@@ -29,6 +32,24 @@ std::vector<Draft> drafts_at(const std::vector<vec3>& positions) {
   std::vector<Draft> drafts(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) drafts[i].position = positions[i];
   return drafts;
+}
+
+TEST(PlaceLinks, AreThoseOfAllPairsHoweverUnlikeTheirSpacings) {
+  Pcg32 rng(5);
+  std::vector<Draft> drafts(400);
+  for (Draft& draft : drafts) {
+    draft.position = vec3(60, 4, 60) * rng.uniform3();
+    draft.spacing = std::exp2(6 * rng.uniform() - 2);
+  }
+  std::vector<PlacedEdge> wanted;
+  for (std::uint32_t a = 0; a < drafts.size(); ++a) {
+    for (std::uint32_t b = a + 1; b < drafts.size(); ++b) {
+      const float limit = link_distance * 0.5f * (drafts[a].spacing + drafts[b].spacing);
+      if (glm::distance(drafts[a].position, drafts[b].position) <= limit) wanted.push_back({a, b, false});
+    }
+  }
+  EXPECT_GT(wanted.size(), 1000u);
+  EXPECT_EQ(link(context_of(empty_space), drafts), wanted);
 }
 
 TEST(PlaceLinks, ReachOneAndEightTenthsOfTheMeanSpacing) {

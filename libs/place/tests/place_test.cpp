@@ -327,7 +327,7 @@ TEST(Place, SaysWhatIsWrong) {
   EXPECT_THAT(message([](PlaceParams& p) { p.clearance = 0; }), HasSubstr("clearance"));
   EXPECT_THAT(message([](PlaceParams& p) { p.levels = 9; }), HasSubstr("levels"));
   EXPECT_THAT(message([](PlaceParams& p) { p.count = 3; }), HasSubstr("SPHLs of its own"));
-  EXPECT_THAT(message([](PlaceParams& p) { p.count = 5000; }), HasSubstr("more than the 4096"));
+  EXPECT_THAT(message([](PlaceParams& p) { p.count = 70000; }), HasSubstr("more than the 65536"));
   EXPECT_THAT(message([](PlaceParams& p) { p.spacing = 3, p.count = 4000; }),
               HasSubstr("find a place (use a smaller spacing)"));
   EXPECT_THAT(message([](PlaceParams& p) { p.interest = {vec3(NAN)}; }), HasSubstr("not finite"));

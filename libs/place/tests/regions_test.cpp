@@ -41,6 +41,30 @@ TEST(Regions, TwoGroupsAreTwoTheLargerFirst) {
   EXPECT_GT(volume_of(regions.boxes[0]), volume_of(regions.boxes[1]));
 }
 
+TEST(Regions, CountWhatStandsApartInThem) {
+  for (const int rows : {1, 2, 4, 7}) {
+    scene::Scene scene = plain(200);
+    for (int i = 0; i < rows * rows; ++i) {
+      const vec3 corner(20.0f * static_cast<float>(i % rows), 0, 20.0f * static_cast<float>(i / rows));
+      add_blocks(scene, corner);
+    }
+    const auto houses = static_cast<std::size_t>(rows * rows);
+    const Regions regions = detail_regions(SampledSource(scene), {});
+    EXPECT_GE(regions.structures, houses - houses / 8) << rows;
+    EXPECT_LE(regions.structures, houses) << rows;
+  }
+}
+
+TEST(Regions, DoNotCountLampPosts) {
+  scene::Scene scene = plain(200);
+  add_blocks(scene, {0, 0, 0});
+  for (int i = 0; i < 5; ++i) {
+    const vec3 at(30.0f + 10 * static_cast<float>(i), 0, 30);
+    add(scene, scene::make_box(at, at + vec3(0.1f, 1, 0.1f)));
+  }
+  EXPECT_EQ(detail_regions(SampledSource(scene), {}).structures, 1u);
+}
+
 TEST(Regions, WithoutDetailOrWithDetailEverywhereItIsTheWholeScene) {
   const scene::Scene bare = plain(10);
   const SampledSource source(bare);

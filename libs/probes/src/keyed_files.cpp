@@ -11,7 +11,7 @@ namespace ssphh::probes {
 namespace {
 
 bool is_probe_name(const std::string& name) {
-  return name.ends_with(".sphl") || name.ends_with(".json");
+  return name.ends_with(".sphl") || name.ends_with(".json") || name.ends_with(".tiles");
 }
 
 /// Where the key that begins there ends: at a comma behind its name or its time, not at one within its name.

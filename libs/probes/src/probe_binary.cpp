@@ -349,7 +349,7 @@ ProbeSet probes_from_binary(std::span<const std::byte> data, const std::string& 
 }
 
 sh::Packing packing_of_file(const std::filesystem::path& path) {
-  if (probe_file_format(path) == ProbeFileFormat::json) return sh::Packing::none;
+  if (probe_file_format(path) != ProbeFileFormat::binary) return sh::Packing::none;
   std::array<char, header_bytes + 1> begin{};
   std::ifstream file(path, std::ios::binary);
   if (!file.read(begin.data(), begin.size())) throw Error(path.string(), "cannot be read");

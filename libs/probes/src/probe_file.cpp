@@ -6,6 +6,7 @@
 #include <ssphh/core/math.h>
 #include <ssphh/probes/probe_file.h>
 #include <ssphh/probes/probe_limits.h>
+#include <ssphh/probes/tile_folder.h>
 
 #include "probe_finish.h"
 
@@ -219,18 +220,26 @@ ProbeFileFormat probe_file_format(const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
   if (extension == ".json") return ProbeFileFormat::json;
   if (extension == ".sphl") return ProbeFileFormat::binary;
+  if (is_tile_folder(path)) return ProbeFileFormat::tiles;
   throw Error(path.string(), "is not the name of a probe file",
-              "it must end in .sphl (binary) or .sphl.json (JSON)");
+              "it must end in .sphl (binary), .sphl.json (JSON) or .tiles (a folder)");
 }
 
 ProbeSet read_probe_file(const std::filesystem::path& path) {
-  if (probe_file_format(path) == ProbeFileFormat::json) {
-    return probes_from_json(read_text_file(path, limits::json_bytes), path.string());
+  switch (probe_file_format(path)) {
+    case ProbeFileFormat::json:
+      return probes_from_json(read_text_file(path, limits::json_bytes), path.string());
+    case ProbeFileFormat::tiles:
+      return TileFolder(path).join();
+    case ProbeFileFormat::binary:
+      break;
   }
   return probes_from_binary(read_file(path, limits::binary_bytes), path.string());
 }
 
 void write_probe_file(const ProbeSet& set, const std::filesystem::path& path, sh::Packing packing) {
+  if (probe_file_format(path) == ProbeFileFormat::tiles)
+    throw Error(path.string(), "only a bake writes tiles", "choose a name that ends in .sphl");
   if (probe_file_format(path) == ProbeFileFormat::binary)
     return write_file(path, probes_to_binary(set, packing));
   if (packing != sh::Packing::none)

@@ -25,17 +25,20 @@ constexpr float share_of_reach = 0.75f;
 /// Where records may stand: on still surfaces, in cubes of a grid.
 class RecordPlaces {
  public:
-  /// `everywhere`: also on surfaces that no surfel stands on.
-  RecordPlaces(const TransportNetwork& network, int most, bool everywhere)
+  /// Within `box` alone. `everywhere`: also on surfaces that no surfel stands on.
+  RecordPlaces(const TransportNetwork& network, const probes::TileBox& box, int most, bool everywhere)
       : source_(network.data_->source),
         surfel_sizes_(network.surfels()),
+        box_(box),
         all_(surfel_points(network)),
         surfels_(all_.size()) {
     // As surfels do, records stand farther apart where probes are far
     for (const rays::SurfacePoint& point : all_) levels_.push_back(level_of(point));
     // Cubes too small for two surfels, however few there are, would not differ from larger ones
-    const auto apart = static_cast<int>(std::min<std::size_t>(all_.size() - all_.size() / 10, most_records));
-    if (!all_.empty()) grid_ = finest_grid(all_, levels_, std::min(most, apart));
+    const Group here = in_box(0, all_.size());
+    const std::size_t count = here.points.size();
+    const auto apart = static_cast<int>(std::min<std::size_t>(count - count / 10, most_records));
+    if (count > 0) grid_ = finest_grid(here.points, here.levels, std::min(most, apart));
     // Surfels do stand within walls: light that slips through where two bodies meet finds them. Nobody looks
     // in there, and a record beside the wall's foot would lend its darkness to the floor before it
     within_ = within_bodies(all_, surfel_sizes_, source_);
@@ -46,6 +49,9 @@ class RecordPlaces {
 
   /// First those of the network's still surfels, in their order; last those of the surfels' patches.
   const std::vector<rays::SurfacePoint>& all() const { return all_; }
+  bool any() const {
+    return std::ranges::any_of(all_, [&](const auto& p) { return has(p); });
+  }
   std::size_t surfels() const { return surfels_; }
   bool is_patch(std::size_t place) const { return place >= coarse_; }
 
@@ -56,13 +62,11 @@ class RecordPlaces {
     for (const std::size_t i : chosen_) taken.insert(grid_.cell(all_[i], levels_[i] + coarser));
     std::vector<std::size_t> result;
     const auto take_middles = [&](std::size_t first, std::size_t end) {
-      const std::span places = std::span(all_).subspan(first, end - first);
-      std::vector<int> levels(levels_.begin() + static_cast<std::ptrdiff_t>(first),
-                              levels_.begin() + static_cast<std::ptrdiff_t>(end));
-      for (int& level : levels) level += coarser;
-      for (const auto& [cell, members] : grid_.sort(places, levels)) {
+      Group places = in_box(first, end);
+      for (int& level : places.levels) level += coarser;
+      for (const auto& [cell, members] : grid_.sort(places.points, places.levels)) {
         if (!taken.insert(cell).second) continue;
-        const std::size_t middle = first + middle_one(places, members);
+        const std::size_t middle = places.index[middle_one(places.points, members)];
         if (!within_[middle]) result.push_back(middle);
       }
     };
@@ -89,7 +93,7 @@ class RecordPlaces {
         count, 64,
         [&](std::size_t i) {
           const rays::SurfacePoint& place = all_[first + i];
-          if (within_[first + i]) return;
+          if (within_[first + i] || !has(place)) return;
           probes::SurfaceShares storage;
           is[i] = std::ranges::none_of(known.at(place, storage), [&](const probes::SurfaceShare& share) {
             const float near = share_of_reach * probes::fitted_reach * known.spacing(share.point);
@@ -115,6 +119,25 @@ class RecordPlaces {
   }
 
  private:
+  struct Group {
+    std::vector<rays::SurfacePoint> points;
+    std::vector<int> levels;
+    std::vector<std::size_t> index;  ///< of all_
+  };
+
+  bool has(const rays::SurfacePoint& point) const { return box_.contains(point.position); }
+
+  Group in_box(std::size_t first, std::size_t end) const {
+    Group group;
+    for (std::size_t i = first; i < end; ++i) {
+      if (!has(all_[i])) continue;
+      group.points.push_back(all_[i]);
+      group.levels.push_back(levels_[i]);
+      group.index.push_back(i);
+    }
+    return group;
+  }
+
   /// Where surfels are coarse, lamps make finer ones, but no denser records: they would be missed elsewhere.
   int level_of(const rays::SurfacePoint& point) const {
     const SurfelSizes& sizes = surfel_sizes_.sizes();
@@ -124,9 +147,9 @@ class RecordPlaces {
   /// Places that no surfel stands at are worth fewer points: their cubes are so large that at most so many
   /// hold any.
   void add_unseen(const TransportNetwork& network, int most) {
-    const std::vector<rays::SurfacePoint> others = unseen_surfaces(network, source_);
+    const std::vector<rays::SurfacePoint> others = unseen_surfaces(network, source_, box_);
     if (others.empty()) return;
-    if (all_.empty()) grid_ = finest_grid(others, {}, std::max(most, 1));
+    if (!any()) grid_ = finest_grid(others, {}, std::max(most, 1));
     std::vector<int> levels;
     for (const rays::SurfacePoint& point : others) levels.push_back(level_of(point));
     while (grid_.sort(others, levels).size() > static_cast<std::size_t>(std::max(most, 1)))
@@ -137,7 +160,8 @@ class RecordPlaces {
   }
 
   void add_patches(const TransportNetwork& network) {
-    const std::vector<rays::SurfacePoint> patches = surfel_points(network, network.params().samples);
+    std::vector<rays::SurfacePoint> patches = surfel_points(network, network.params().samples);
+    std::erase_if(patches, [&](const rays::SurfacePoint& point) { return !has(point); });
     const std::vector<std::uint8_t> within = within_bodies(patches, surfel_sizes_, source_);
     all_.insert(all_.end(), patches.begin(), patches.end());
     within_.insert(within_.end(), within.begin(), within.end());
@@ -146,6 +170,7 @@ class RecordPlaces {
 
   const rays::TransportSource& source_;
   const SurfelSet& surfel_sizes_;
+  probes::TileBox box_;
   std::vector<rays::SurfacePoint> all_;
   std::vector<std::uint8_t> within_;  ///< whether each lies within a body
   std::size_t surfels_, coarse_ = 0;  ///< of all_, that are surfels; that are not patches
@@ -273,13 +298,13 @@ std::unique_ptr<SurfaceGather> gather_where_needed(const TransportNetwork& netwo
     return light;
   };
   PosedIrradiance now = light_in(times[0]);
-  RecordPlaces places(network, params.points, !params.baked.empty());
+  RecordPlaces places(network, params.within, params.points, !params.baked.empty());
   const auto gather_at = [&](std::vector<rays::SurfacePoint> points) {
     return SurfaceGather(network, std::move(points), params.rays, now.direct, control);
   };
   int first = 0;
   std::vector<std::size_t> wanted;
-  if (!places.all().empty()) wanted = places.free(first, false);
+  if (places.any()) wanted = places.free(first, false);
   while (wanted.size() > first_points) wanted = places.free(++first, false);
   auto gather = std::make_unique<SurfaceGather>(gather_at(places.choose(wanted)));
   std::vector<probes::RecordLight> light;

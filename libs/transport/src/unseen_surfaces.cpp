@@ -111,7 +111,8 @@ std::vector<std::uint8_t> within_bodies(std::span<const rays::SurfacePoint> poin
 }
 
 std::vector<rays::SurfacePoint> unseen_surfaces(const TransportNetwork& network,
-                                                const rays::TransportSource& source) {
+                                                const rays::TransportSource& source,
+                                                const probes::TileBox& within) {
   const SurfelSet& surfels = network.surfels();
   const PointGrid voxels{vec3(0), surfels.size()};
   const auto voxel = [&](const rays::SurfacePoint& point) {
@@ -121,6 +122,7 @@ std::vector<rays::SurfacePoint> unseen_surfaces(const TransportNetwork& network,
   for (const rays::SurfacePoint& point : surfel_points(network)) taken.insert(voxel(point));
   std::vector<rays::SurfacePoint> points;
   for (const rays::PartPoint& sample : spread_over(source, surfels.size())) {
+    if (!within.contains(sample.point.position)) continue;
     for (const float side : {1.0f, -1.0f}) {
       const rays::SurfacePoint point{sample.point.position, side * sample.point.normal};
       if (!taken.contains(voxel(point))) points.push_back(point);

@@ -9,11 +9,12 @@
 
 namespace ssphh::transport {
 
-/// A point in each voxel of the surfels that still surfaces pass and that holds none of them, for each side
-/// that a surface faces, outside of closed bodies: neither probes nor surfels see the outer walls of a court,
-/// but a camera may. The same at every call.
+/// A point in each voxel of the surfels within the box that still surfaces pass and that holds none of them,
+/// for each side that a surface faces, outside of closed bodies: neither probes nor surfels see the outer
+/// walls of a court, but a camera may. The same at every call.
 std::vector<rays::SurfacePoint> unseen_surfaces(const TransportNetwork& network,
-                                                const rays::TransportSource& source);
+                                                const rays::TransportSource& source,
+                                                const probes::TileBox& within = {});
 
 /// Whether each of the points lies within a body: half of what it sees is the back of one-sided surfaces, or
 /// some of it and no point that is outside.

@@ -21,18 +21,24 @@ struct TransportBakeParams {
   transport::GatherParams records;  ///< of light kept at surfaces
   bool fit = false;                 ///< also fit lookup weights at the surfels
   transport::FitParams fit_params;
+  /// Only so many of the set's first probes are asked for: no other gets edges or is warned of. The others
+  /// are there to see what is around these. 0: all.
+  std::size_t own_probes = 0;
 };
 
 /// What a bake took: not part of the set.
 struct TransportBakeReport {
   std::size_t surfels = 0, links = 0;
+  std::size_t tiles = 1;                         ///< that were baked one after the other (tiled_transport.h)
+  std::size_t resumed = 0;                       ///< of these, that an earlier run had baked
   float finest_surfel = 0, coarsest_surfel = 0;  ///< edges [m]
   int iterations = 0;                            ///< of the light group that took most
-  double contraction = 0;  ///< surfel: upper bound of the factor by which one bounce shrinks light; bounce:
-                           ///< an estimate of it for the probes' operator
-  float error = 0;         ///< surfel: share of the light that is missing at most
-  double lost = 0;         ///< share of the surfels' rays that end where no surfel is
-  double seconds = 0;      ///< all but VIZ, the fit and the records
+  double contraction = 0;   ///< surfel: upper bound of the factor by which one bounce shrinks light; bounce:
+                            ///< an estimate of it for the probes' operator
+  float error = 0;          ///< surfel: share of the light that is missing at most
+  double lost = 0;          ///< share of the surfels' rays that end where no surfel is
+  std::size_t records = 0;  ///< surface points that keep light
+  double seconds = 0;       ///< all but VIZ, the fit and the records
   double viz_seconds = 0;
   double fit_seconds = 0;
   double record_seconds = 0;

@@ -9,6 +9,7 @@
 
 #include <ssphh/bake/bake.h>
 #include <ssphh/bake/effort.h>
+#include <ssphh/bake/tiled_transport.h>
 #include <ssphh/bake/transport_bake.h>
 #include <ssphh/core/control.h>
 #include <ssphh/pipeline/places.h>
@@ -47,8 +48,14 @@ struct BakeSettings {
   /// light group is baked, else 0.
   std::optional<int> records;
   /// For as many as 150 probes, a furnished flat's; in proportion for more, up to most_flats times as many
-  /// and transport::most_records.
+  /// and transport::most_records. Of a scene in tiles each gets as many.
   int usual_records = transport::usual_records;
+  /// More probes than that are lit in tiles, by networks of their own; but not with fitted weights, nor by
+  /// `bounce`, which need one network of all.
+  std::size_t most_probes_in_tile = bake::most_probes_in_tile;
+  /// Folder of tiles to write, *.tiles (probes::TileFolder): the result has probes without light, and memory
+  /// holds one tile at a time. Empty: none.
+  std::filesystem::path tiles;
   double max_memory = 0;  ///< that surfels and their links may take [GB]; 0: half of the machine's
   float threshold = 0;    ///< only edges with P above it, from 0 up
   probes::VizSource viz_source = probes::VizSource::intensity;  ///< of VIZ by paths and by links
@@ -76,11 +83,15 @@ struct SceneBake {
 /// Finds places in the scene posed at `time`, and the light there. A farm's `crew` does GEN and VIZ by paths.
 /// Warns in the log as its parts do. Throws Error for settings that exclude each other, and as
 /// place::place_probes, bake::bake and bake::bake_transport do; Cancelled when asked to stop, which leaves
-/// `checkpoint` for the next call with the same arguments (bake::bake tells of it).
+/// `checkpoint`, and of a scene in tiles CHECKPOINT.tiles beside it, for the next call with the same
+/// arguments (bake::bake tells of it).
 SceneBake bake_scene(const trace::SharedGeometry& geometry, const scene::Scene& scene, float time,
                      const PlaceOptions& places, const BakeSettings& settings,
                      const std::filesystem::path& checkpoint, const Control& control = {},
                      bake::BakeCrew* crew = nullptr);
+
+/// Removes what a bake left, once its result is safe.
+void remove_checkpoint(const std::filesystem::path& checkpoint);
 
 /// The same with places found by themselves and light by surfels, kept in records of surfaces, without VIZ:
 /// for what is made of light at surfaces.

@@ -10,6 +10,7 @@
 #include <ssphh/probes/probe_set.h>
 #include <ssphh/rays/transport_source.h>
 #include <ssphh/scene/scene.h>
+#include <ssphh/trace/render_state.h>
 
 namespace ssphh::pipeline {
 
@@ -27,6 +28,12 @@ void require_same_scene(const std::string& file, const probes::ProbeSet& set, co
 /// probes::read_probe_keys() has them, the light at `time`.
 probes::ProbeSet read_probes_of(const scene::Scene& scene, const std::string& file, std::optional<float> time,
                                 bool force);
+
+/// The same; of a folder of tiles that are too many for one set those in which a picture shows surfaces, the
+/// most seen first. `source` is of the scene. What mirrors show of other tiles is lit by probes of these.
+probes::ProbeSet read_probes_in_view(const scene::Scene& scene, const std::string& file,
+                                     std::optional<float> time, bool force,
+                                     const rays::TransportSource& source, const trace::RenderParams& params);
 
 /// Places of the cameras and probes (without probes: also of lamps and SPHLs; without any of these: where
 /// study::default_view() looks from): what they can reach is what counts. `source` is of the scene.

@@ -1,6 +1,7 @@
 #pragma once
 /// Probe files: `.sphl.json` (JSON, coefficients to five significant digits, schemas/probes.schema.json) and
-/// `.sphl` (binary, full float precision) with the same content. docs/probe-files.md describes both.
+/// `.sphl` (binary, full float precision) with the same content; docs/probe-files.md describes both. Folders
+/// of tiles, `.tiles` (tile_folder.h), are read as one set.
 
 #include <filesystem>
 #include <span>
@@ -16,9 +17,9 @@ inline constexpr int probe_file_version = 7;
 /// Of binary files with packed light (docs/compact-probes.md); else as version 7.
 inline constexpr int packed_probe_file_version = 8;
 
-enum class ProbeFileFormat { json, binary };
+enum class ProbeFileFormat { json, binary, tiles };
 
-/// By the name's end: `.json` or `.sphl`. Throws Error for any other.
+/// By the name's end: `.json`, `.sphl` or `.tiles`. Throws Error for any other.
 ProbeFileFormat probe_file_format(const std::filesystem::path& path);
 
 /// Reads and validates. Throws Error with the file and the place (a JSON pointer, or a byte) of what is
@@ -27,7 +28,7 @@ ProbeFileFormat probe_file_format(const std::filesystem::path& path);
 ProbeSet read_probe_file(const std::filesystem::path& path);
 
 /// Validates and writes atomically; the format is that of the name. With a packing: throws Error for JSON,
-/// for sets that are not compacted(), and as sh::pack() does.
+/// for sets that are not compacted(), and as sh::pack() does. Throws Error for `.tiles`, which bakes write.
 void write_probe_file(const ProbeSet& set, const std::filesystem::path& path,
                       sh::Packing packing = sh::Packing::none);
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <ssphh/core/vectors.h>
+#include <ssphh/probes/tiles.h>
 #include <ssphh/probes/weight_params.h>
 
 namespace ssphh::transport {
@@ -67,6 +68,7 @@ struct GatherParams {
   /// Light groups whose direct light is kept at the points, too, each once: as many rays per point and
   /// emitter.
   std::vector<int> baked = {};
+  probes::TileBox within = {};  ///< gather_where_needed() chooses points in here alone
 
   friend bool operator==(const GatherParams&, const GatherParams&) = default;
 };
