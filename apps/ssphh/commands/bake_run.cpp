@@ -52,7 +52,8 @@ void run_full_bake(const BakeOptions& o, BakeResult& result, BakeWatcher& watche
   if (!o.resume) pipeline::remove_checkpoint(checkpoint);
   pipeline::SceneBake& baked = result;
   bake::BakeCrew* const crew = farm ? static_cast<bake::BakeCrew*>(&*farm) : cycles ? &*cycles : nullptr;
-  baked = pipeline::bake_scene(geometry, scene, o.scene.time, o.place, settings, checkpoint, control, crew);
+  baked = pipeline::bake_scene(geometry, scene, o.scene.time, o.place, settings, checkpoint, control, crew,
+                               farm ? &*farm : nullptr);
   if (farm) result.farm = farm->report();
   if (by_cycles) result.set.baseline.reset();  // an update would go on with our light
   if (watcher.see) watcher.see({geometry, scene, result.set, true});

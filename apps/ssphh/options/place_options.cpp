@@ -36,7 +36,10 @@ void add_place_options(Command command, PlaceOptions& options, bool files) {
       .positive();
   placement.option("--refine", options.levels, "Times that the spacing may be halved near surfaces, 0..3")
       .range(0, 3);
-  placement.option("--max-probes", options.max_probes, "Most probes that may be placed").range(1, 65536);
+  placement
+      .option("--max-probes", options.max_probes,
+              "Most probes that may be placed; over 65536 are for a folder of tiles (`bake -o NAME.tiles`)")
+      .range(1, 1 << 21);
 }
 
 json::Value place_json(const PlaceResult& result) {

@@ -127,12 +127,6 @@ Control control_of_tile(const Control& control, std::size_t tile, std::size_t co
   return result;
 }
 
-TransportBakeParams params_of_tile(TransportBakeParams params, const Tile& tile) {
-  params.own_probes = tile.own;
-  params.records.within = tile.box;
-  return params;
-}
-
 /// Those of the tile's own, as its set has them.
 std::vector<std::uint32_t> within_tile(std::span<const std::uint32_t> probes, const Tile& tile) {
   std::vector<std::uint32_t> within;
@@ -145,27 +139,26 @@ std::vector<std::uint32_t> within_tile(std::span<const std::uint32_t> probes, co
 template <class Take>
 void bake_each(const rays::TransportSource& source, const probes::ProbeSet& set, std::span<const Tile> tiles,
                const TiledParams& params, const probes::TileFolder* folder, TransportBakeReport& report,
-               const Control& control, const Take& take) {
+               const Control& control, TileCrew* crew, const Take& take) {
   report = {};
   report.tiles = tiles.size();
-  for (std::size_t t = 0; t < tiles.size(); ++t) {
-    if (folder && folder->has(t)) {
-      ++report.resumed;
-      continue;
-    }
-    std::optional<TileProgress> progress;
-    const Control of_tile = control_of_tile(control, t, tiles.size(), progress);
-    const TransportBakeParams transport = params_of_tile(params.transport, tiles[t]);
-    probes::ProbeSet baked = probes::set_of_tile(set, tiles[t]);
-    TransportBakeReport took;
-    if (params.light_known) {
-      add_transport(source, baked, transport, took, of_tile);
-    } else {
-      baked = bake_transport(source, std::move(baked), transport, took, of_tile);
-    }
+  std::vector<std::size_t> left;
+  for (std::size_t t = 0; t < tiles.size(); ++t)
+    if (!folder || !folder->has(t)) left.push_back(t);
+  report.resumed = tiles.size() - left.size();
+  const auto finish = [&](std::size_t t, probes::ProbeSet baked, const TransportBakeReport& took) {
     if (params.finish) params.finish(baked);
     add_report(took, report);
     take(t, std::move(baked));
+  };
+  if (crew) return crew->run_tiles(set, tiles, left, params, finish, control);
+  for (const std::size_t t : left) {
+    std::optional<TileProgress> progress;
+    probes::ProbeSet baked = probes::set_of_tile(set, tiles[t]);
+    TransportBakeReport took;
+    bake_tile(source, baked, params_of_tile(params.transport, tiles[t]), params.light_known, took,
+              control_of_tile(control, t, tiles.size(), progress));
+    finish(t, std::move(baked), took);
   }
 }
 
@@ -189,32 +182,49 @@ std::vector<Tile> make_tiles(probes::ProbeSet& set, std::size_t most_probes) {
   return std::move(splitter.tiles);
 }
 
+TransportBakeParams params_of_tile(TransportBakeParams params, const Tile& tile) {
+  params.own_probes = tile.own;
+  params.records.within = tile.box;
+  params.transport.grow = true;
+  return params;
+}
+
+void bake_tile(const rays::TransportSource& source, probes::ProbeSet& tile, const TransportBakeParams& params,
+               bool light_known, TransportBakeReport& report, const Control& control) {
+  if (light_known) {
+    add_transport(source, tile, params, report, control);
+  } else {
+    tile = bake_transport(source, std::move(tile), params, report, control);
+  }
+}
+
 void transport_in_tiles(const rays::TransportSource& source, probes::ProbeSet& set,
                         std::span<const Tile> tiles, const TiledParams& params, probes::TileFolder* folder,
-                        TransportBakeReport& report, const Control& control) {
+                        TransportBakeReport& report, const Control& control, TileCrew* crew) {
   const std::vector<int> places = probes::places_of(tiles);
   // Light and edges go into a set of their own: tiles see the places of all, and nothing else of each other
   probes::ProbeSet whole = set;
   whole.surface.reset(), whole.fitted.reset(), whole.hierarchy.reset();
-  bake_each(source, set, tiles, params, folder, report, control,
+  // A crew is done with them in any order: records stand in the tiles' own
+  std::vector<std::optional<probes::ProbeSet>> kept(folder ? 0 : tiles.size());
+  bake_each(source, set, tiles, params, folder, report, control, crew,
             [&](std::size_t t, probes::ProbeSet&& baked) {
               if (folder) {
                 folder->write(t, baked);
               } else {
-                probes::put_tile(tiles[t], std::move(baked), places, whole);
+                kept[t] = std::move(baked);
               }
             });
-  if (folder) {
-    for (std::size_t t = 0; t < tiles.size(); ++t) probes::put_tile(tiles[t], folder->read(t), places, whole);
-  }
+  for (std::size_t t = 0; t < tiles.size(); ++t)
+    probes::put_tile(tiles[t], folder ? folder->read(t) : std::move(*kept[t]), places, whole);
   probes::merge_groups(whole);
   set = std::move(whole);
 }
 
 void transport_into_folder(const rays::TransportSource& source, const probes::ProbeSet& set,
                            std::span<const Tile> tiles, const TiledParams& params, probes::TileFolder& folder,
-                           TransportBakeReport& report, const Control& control) {
-  bake_each(source, set, tiles, params, &folder, report, control,
+                           TransportBakeReport& report, const Control& control, TileCrew* crew) {
+  bake_each(source, set, tiles, params, &folder, report, control, crew,
             [&](std::size_t t, probes::ProbeSet&& baked) { folder.write(t, baked); });
 }
 

@@ -38,7 +38,7 @@ class Dispatcher {
         client_(connect(options.broker)) {
     for (const UnitGroup& group : groups) {
       next_.push_back(0);
-      cutters_.emplace_back(options.job_seconds);
+      cutters_.emplace_back(options.job_seconds, group.most_per_job);
       left_ += group.count;
     }
   }

@@ -25,6 +25,13 @@ void check(const SceneRef& scene) {
   require(std::isfinite(scene.time), "scene/time", "must be finite");
 }
 
+void check(const std::vector<ProbeSphere>& places) {
+  for (const ProbeSphere& place : places) {
+    require(is_finite(place.position), "places", "a position is not finite");
+    require(place.radius > 0 && std::isfinite(place.radius), "places", "a radius is not positive");
+  }
+}
+
 void check(const ProbeJob& job) {
   check(job.scene);
   require_named("job: renderer", job.renderer);
@@ -42,10 +49,7 @@ void check(const ProbeJob& job) {
     require(job.probes[i] < (viz ? job.places.size() : job_limits::places), "probes",
             "an index is out of range");
   }
-  for (const ProbeSphere& place : job.places) {
-    require(is_finite(place.position), "places", "a position is not finite");
-    require(place.radius > 0 && std::isfinite(place.radius), "places", "a radius is not positive");
-  }
+  check(job.places);
 }
 
 void check(const TileJob& job) {
@@ -75,9 +79,33 @@ void check(const TileJob& job) {
           "must be sum or self");
 }
 
+void check(const TransportJob& job) {
+  check(job.scene);
+  const bake::TransportBakeParams& p = job.params;
+  const auto within = [](auto value, auto least, auto most) { return value >= least && value <= most; };
+  require(job.degree >= 0 && job.degree <= sh::max_degree, "degree", "must lie in 0..10");
+  require(p.op == probes::LightOperator::surfel && !p.fit, "operator",
+          "must be surfel, without fitted weights");
+  require(within(job.places.size(), std::size_t{1}, job_limits::tile_places), "places", "must be 1 to 16384");
+  require(within(p.own_probes, std::size_t{1}, job.places.size()), "own",
+          "must be 1 to the number of places");
+  check(job.places);
+  const transport::TransportParams& t = p.transport;
+  require(within(t.directions, 8, 1 << 16), "transport/directions", "must lie in 8..65536");
+  require(within(t.link_rays, 4, 1 << 16), "transport/link_rays", "must lie in 4..65536");
+  require(within(t.samples, 1, 32), "transport/samples", "must lie in 1..32");
+  require(within(t.surfel_size, 0.0f, 1e9f), "transport/surfel_size", "must be 0 or more");
+  require(within(t.surfels_per_radius, 1.0f, 1e6f), "transport/surfels_per_radius", "must be 1 or more");
+  require(within(t.most_surfels, 1, 1 << 24), "transport/most_surfels", "must lie in 1..2^24");
+  require(within(p.records.points, 0, 1 << 16), "records/points", "must lie in 0..65536");
+  require(within(p.records.rays, 4, 1 << 16), "records/rays", "must lie in 4..65536");
+  require(p.records.baked.size() <= 256, "records/baked", "are more than 256 light groups");
+}
+
 }  // namespace
 
 JobKind kind_of(const Job& job) {
+  if (std::holds_alternative<TransportJob>(job)) return JobKind::transport;
   const auto* probes = std::get_if<ProbeJob>(&job);
   if (!probes) return JobKind::ref;
   return probes->stage == bake::BakeStage::gen ? JobKind::gen : JobKind::viz;

@@ -1,13 +1,10 @@
 #include <fmt/format.h>
 
-#include <ssphh/probes/probe_codec.h>
-
-#include "message.h"
+#include "codec_parts.h"
 
 namespace ssphh::farm {
-namespace {
 
-// --- scene and paths
+// --- parts of several kinds
 
 json::Value put(const SceneRef& scene) {
   return {{"package", scene.package.hex()},
@@ -25,6 +22,60 @@ SceneRef get_scene(const Field& f) {
   return scene;
 }
 
+json::Value put(std::span<const ProbeSphere> places, MessageWriter& out) {
+  if (places.empty()) return json::Value::array();
+  std::vector<float> values;
+  for (const ProbeSphere& p : places)
+    values.insert(values.end(), {p.position.x, p.position.y, p.position.z, p.radius});
+  return out.floats(values);
+}
+
+std::vector<ProbeSphere> get_places(const Field& f, std::size_t most) {
+  const std::size_t floats = f.float_count();
+  if (floats % 4 != 0 || floats > 4 * most) f.fail("must be x, y, z, radius of each place");
+  std::vector<float> values(floats);
+  f.floats(values);
+  std::vector<ProbeSphere> places;
+  for (std::size_t i = 0; i < floats; i += 4)
+    places.push_back({{values[i], values[i + 1], values[i + 2]}, values[i + 3]});
+  return places;
+}
+
+namespace {
+
+template <class Part, class Write>
+json::Value put_each(const std::vector<Part>& parts, MessageWriter& out, const Write& write) {
+  json::Value list = json::Value::array();
+  for (const Part& part : parts) {
+    list.push_back(json::Value::object());
+    write(MessageParts{list[list.size() - 1], out}, part);
+  }
+  return list;
+}
+
+}  // namespace
+
+json::Value put(const std::vector<probes::GroupLight>& light, MessageWriter& out) {
+  return put_each(light, out,
+                  [](MessageParts to, const probes::GroupLight& l) { probes::write_light(to, l); });
+}
+
+json::Value put(const std::vector<probes::Edge>& edges, MessageWriter& out) {
+  return put_each(edges, out,
+                  [](MessageParts to, const probes::Edge& edge) { probes::write_edge(to, edge); });
+}
+
+std::vector<probes::GroupLight> get_light(const Field& f, int degree) {
+  std::vector<probes::GroupLight> light;
+  for (const Field& group : json::elements(f, 0, 256))
+    light.push_back(probes::read_light(FieldParts(group), degree));
+  return light;
+}
+
+namespace {
+
+// --- paths
+
 json::Value put(const rays::PathParams& path) {
   return {{"max_depth", path.max_depth},
           {"passes", path.passes},
@@ -40,13 +91,6 @@ rays::PathParams get_path(const Field& f) {
 // --- probes
 
 json::Value put(const ProbeJob& job, MessageWriter& out) {
-  json::Value places = json::Value::array();
-  if (job.places.size() > 0) {
-    std::vector<float> values;
-    for (const ProbeSphere& p : job.places)
-      values.insert(values.end(), {p.position.x, p.position.y, p.position.z, p.radius});
-    places = out.floats(values);
-  }
   return {{"scene", put(job.scene)},
           {"renderer", name_of(job.renderer)},
           {"degree", job.degree},
@@ -59,7 +103,7 @@ json::Value put(const ProbeJob& job, MessageWriter& out) {
             {"source", name_of(job.viz_params.source)},
             {"paths", name_of(job.viz_params.paths)}}},
           {"probes", job.probes},
-          {"places", places}};
+          {"places", put(job.places, out)}};
 }
 
 ProbeJob get_probe_job(const Field& f, bake::BakeStage stage) {
@@ -76,40 +120,17 @@ ProbeJob get_probe_job(const Field& f, bake::BakeStage stage) {
                     viz["paths"].named<rays::PathSet>()};
   for (const Field& probe : json::elements(f["probes"], 0, job_limits::units))
     job.probes.push_back(static_cast<std::uint32_t>(probe.integer(0, job_limits::places - 1)));
-  const Field places = f["places"];
-  const std::size_t floats = places.float_count();
-  if (floats % 4 != 0 || floats > 4 * job_limits::places)
-    places.fail("must be x, y, z, radius of each place");
-  std::vector<float> values(floats);
-  places.floats(values);
-  for (std::size_t i = 0; i < floats; i += 4)
-    job.places.push_back({{values[i], values[i + 1], values[i + 2]}, values[i + 3]});
+  job.places = get_places(f["places"], job_limits::places);
   return job;
 }
 
-/// The alphabet of messages for probe_codec.h: members of an object, floats where the message has them.
-struct MessageParts {
-  json::Value& object;
-  MessageWriter& out;
-
-  void index(const char* name, int value) { object[name] = value; }
-  void amount(const char* name, float value) { object[name] = exact(value); }
-  void vectors(const char* name, std::span<const vec3> values, probes::Missing missing) {
-    if (!values.empty() || missing != probes::Missing::absent) object[name] = out.vectors(values);
-  }
-};
-using FieldParts = probes::JsonParts<Field>;
-
 json::Value put(const bake::ProbeStageResult& result, MessageWriter& out) {
   json::Value probe = {{"probe", result.done.probe}, {"seconds", result.seconds}, {"rays", result.rays}};
-  const bool gen = result.done.stage == bake::BakeStage::gen;
-  json::Value& list = probe[gen ? "groups" : "edges"] = json::Value::array();
-  const auto next = [&] {
-    list.push_back(json::Value::object());
-    return MessageParts{list[list.size() - 1], out};
-  };
-  for (const probes::GroupLight& light : result.groups) probes::write_light(next(), light);
-  for (const probes::Edge& edge : result.edges) probes::write_edge(next(), edge);
+  if (result.done.stage == bake::BakeStage::gen) {
+    probe["groups"] = put(result.groups, out);
+  } else {
+    probe["edges"] = put(result.edges, out);
+  }
   return probe;
 }
 
@@ -122,8 +143,7 @@ bake::ProbeStageResult get_probe(const Field& f, bake::BakeStage stage, int degr
     result.edges = probes::read_edges(FieldParts(f["edges"]), degree, result.done.probe, job_limits::places);
     return result;
   }
-  for (const Field& group : json::elements(f["groups"], 0, 256))
-    result.groups.push_back(probes::read_light(FieldParts(group), degree));
+  result.groups = get_light(f["groups"], degree);
   return result;
 }
 
@@ -252,7 +272,7 @@ TileResult get_tile_result(const Field& f) {
   return result;
 }
 
-// --- both
+// --- all
 
 bake::BakeStage stage_of(JobKind kind) {
   return kind == JobKind::gen ? bake::BakeStage::gen : bake::BakeStage::viz;
@@ -274,10 +294,16 @@ Job decode_job(std::string_view body) {
   root.expect_format("ssphh-job", job_version);
   const auto kind = root["kind"].named<JobKind>();
   Job job;
-  if (kind == JobKind::ref) {
-    job = get_tile_job(root);
-  } else {
-    job = get_probe_job(root, stage_of(kind));
+  switch (kind) {
+    case JobKind::ref:
+      job = get_tile_job(root);
+      break;
+    case JobKind::transport:
+      job = get_transport_job(root);
+      break;
+    case JobKind::gen:
+    case JobKind::viz:
+      job = get_probe_job(root, stage_of(kind));
   }
   validate(job);
   return job;
@@ -291,6 +317,9 @@ std::string encode_result(const JobResult& result, ContentType type) {
     document["degree"] = probes->degree;
     json::Value& list = document["probes"] = json::Value::array();
     for (const bake::ProbeStageResult& probe : probes->probes) list.push_back(put(probe, out));
+  } else if (const auto* transport = std::get_if<TransportJobResult>(&result.data)) {
+    document["kind"] = name_of(JobKind::transport);
+    document.update(put(*transport, out));
   } else {
     document["kind"] = name_of(JobKind::ref);
     json::Value& list = document["tiles"] = json::Value::array();
@@ -311,6 +340,8 @@ JobResult decode_result(std::string_view body) {
     auto& tiles = result.data.emplace<TileJobResult>().tiles;
     for (const Field& tile : json::elements(root["tiles"], 0, job_limits::units))
       tiles.push_back(get_tile_result(tile));
+  } else if (kind == JobKind::transport) {
+    result.data = get_transport_result(root);
   } else {
     auto& probes = result.data.emplace<ProbeJobResult>();
     probes.stage = stage_of(kind);

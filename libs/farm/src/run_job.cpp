@@ -6,6 +6,7 @@
 #include <ssphh/farm/run_job.h>
 #include <ssphh/probes/lookup.h>
 #include <ssphh/probes/probe_file.h>
+#include <ssphh/trace/transport_scene.h>
 
 namespace ssphh::farm {
 namespace {
@@ -77,6 +78,25 @@ TileJobResult run(const TileJob& job, const PreparedScene& scene, const rays::In
   return result;
 }
 
+TransportJobResult run(const TransportJob& job, const PreparedScene& scene, const Control& control) {
+  const trace::TransportScene source(scene.geometry, scene.scene);
+  std::vector<scene::ProbePlace> places;
+  for (const ProbeSphere& place : job.places) places.push_back({"", place.position, place.radius});
+  probes::ProbeSet set = probes::dark_set(places, job.degree);
+  set.generator.time = job.scene.time;
+  TransportJobResult result;
+  result.degree = job.degree;
+  result.light_groups = source.light_groups();
+  bake::bake_tile(source, set, job.params, job.light_known, result.report, control);
+  for (probes::Probe& probe : set.probes) {
+    if (!job.light_known) result.light.push_back(std::move(probe.groups));
+    result.edges.push_back(std::move(probe.edges));
+  }
+  result.surfel_size = set.generator.surfel_size;
+  result.records = std::move(set.surface);
+  return result;
+}
+
 }  // namespace
 
 JobResult run_job(const Job& job, SceneStore& scenes, const FetchChunk& fetch, const Control& control,
@@ -89,6 +109,9 @@ JobResult run_job(const Job& job, SceneStore& scenes, const FetchChunk& fetch, c
   JobResult result;
   if (const auto* probes = std::get_if<ProbeJob>(&job)) {
     result.data = run(*probes, *scene, other, control);
+  } else if (const auto* transport = std::get_if<TransportJob>(&job)) {
+    TransportJobResult& done = result.data.emplace<TransportJobResult>(run(*transport, *scene, control));
+    result.stats.rays = done.report.rays;
   } else {
     const TileJob& tiles = std::get<TileJob>(job);
     std::unique_ptr<rays::IndirectLight> lookup;
@@ -101,7 +124,7 @@ JobResult run_job(const Job& job, SceneStore& scenes, const FetchChunk& fetch, c
     result.data = run(tiles, *scene, lookup.get(), control);
   }
   result.stats.seconds = watch.seconds();
-  result.stats.rays = scene->tracer->rays_traced() - rays_before;
+  result.stats.rays += scene->tracer->rays_traced() - rays_before;
   return result;
 }
 

@@ -32,7 +32,8 @@ std::shared_ptr<const PreparedScene> SceneStore::get(const SceneRef& ref, const 
     throw Error("scene " + ref.package.hex(),
                 fmt::format("has the light hash {}, the job says {}", light.hex(), ref.light.hex()));
   }
-  prepared->tracer = std::make_unique<trace::PathTracer>(prepared->scene, ref.time);
+  prepared->geometry = std::make_shared<const trace::SceneGeometry>(prepared->scene);
+  prepared->tracer = std::make_unique<trace::PathTracer>(prepared->geometry, prepared->scene, ref.time);
   entries_.push_front({ref, prepared});
   return prepared;
 }

@@ -64,4 +64,12 @@ Hash128 unit_key(const TileJob& job, const trace::Tile& tile) {
   return h.finish();
 }
 
+Hash128 unit_key(const TransportJob& job) {
+  TransportJob asked = job;
+  asked.scene.package = {}, asked.scene.manifest_bytes = 1;
+  Hasher h;
+  h.text("transport").text(engine_id()).text(encode_job(asked, ContentType::binary));
+  return h.finish();
+}
+
 }  // namespace ssphh::farm

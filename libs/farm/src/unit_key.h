@@ -21,4 +21,7 @@ Hash128 unit_key(const ProbeJob& all, std::uint32_t probe);
 /// Of one tile; those of the job do not matter.
 Hash128 unit_key(const TileJob& job, const trace::Tile& tile);
 
+/// Of all that the job asks for, whatever package its scene comes in.
+Hash128 unit_key(const TransportJob& job);
+
 }  // namespace ssphh::farm

@@ -23,6 +23,7 @@ std::string host_and_pid() {
 }
 
 std::size_t unit_count(const Job& job) {
+  if (std::holds_alternative<TransportJob>(job)) return 1;
   const auto* probes = std::get_if<ProbeJob>(&job);
   return probes ? probes->probes.size() : std::get<TileJob>(job).tiles.size();
 }

@@ -1,11 +1,16 @@
 /// Every field of a job and of a result travels, in both encodings.
 
-#include <gtest/gtest.h>
+#include <functional>
+#include <tuple>
 
+#include <gmock/gmock.h>
+
+#include <ssphh/core/json.h>
 #include <ssphh/farm/job_codec.h>
 
 #include "error_message.h"
 #include "job_fields.h"
+#include "random_set.h"
 
 namespace ssphh::farm {
 namespace {
@@ -51,6 +56,75 @@ TEST(JobCodec, EveryFieldOfATileJobTravels) {
   expect_to_travel(job);
 }
 
+TEST(JobCodec, EveryFieldOfATransportJobTravels) {
+  TransportJob job = test::some_transport_job();
+  expect_to_travel(job);
+  job.params.records.within = {};
+  for (const ContentType type : both_encodings)
+    EXPECT_EQ(std::get<TransportJob>(decode_job(encode_job(job, type))).params.records.within,
+              probes::TileBox());
+}
+
+TEST(JobCodec, EveryFieldOfATransportResultTravels) {
+  const probes::ProbeSet set = ssphh::test::random_set(5, 3, 2);
+  TransportJobResult result;
+  result.degree = 2;
+  result.light_groups = {"lamp", "the \"sky\""};
+  result.surfel_size = 1.0f / 3;
+  for (const probes::Probe& probe : set.probes) {
+    result.light.push_back(probe.groups);
+    result.edges.push_back(probe.edges);
+  }
+  result.records = ssphh::test::random_records(9, 20, 2);
+  result.records->direct = {{}, result.records->groups[0]};
+  bake::TransportBakeReport& r = result.report;
+  r.surfels = 11, r.links = 12, r.finest_surfel = 0.1f, r.coarsest_surfel = 0.7f, r.iterations = 13;
+  r.contraction = 1.0 / 3, r.error = 1e-3f, r.lost = 1.0 / 7, r.records = 20, r.seconds = 0.1;
+  r.viz_seconds = 0.2, r.record_seconds = 0.3, r.rays = std::uint64_t{1} << 40,
+  r.warnings = {"mind", "the gap"};
+  for (const ContentType type : both_encodings) {
+    const JobResult back = decode_result(encode_result({result, {}}, type));
+    const auto& b = std::get<TransportJobResult>(back.data);
+    EXPECT_EQ(b.degree, 2);
+    EXPECT_EQ(b.light_groups, result.light_groups);
+    EXPECT_EQ(b.surfel_size, result.surfel_size);
+    EXPECT_EQ(b.light, result.light);
+    EXPECT_EQ(b.edges, result.edges);
+    ASSERT_TRUE(b.records.has_value());
+    EXPECT_EQ(*b.records, *result.records);
+    const bake::TransportBakeReport& now = b.report;
+    EXPECT_EQ(std::tie(now.surfels, now.links, now.finest_surfel, now.coarsest_surfel, now.iterations,
+                       now.contraction, now.error, now.lost, now.records, now.rays, now.warnings),
+              std::tie(r.surfels, r.links, r.finest_surfel, r.coarsest_surfel, r.iterations, r.contraction,
+                       r.error, r.lost, r.records, r.rays, r.warnings));
+    EXPECT_EQ(std::tie(now.seconds, now.viz_seconds, now.record_seconds),
+              std::tie(r.seconds, r.viz_seconds, r.record_seconds));
+  }
+  result.records.reset(), result.light.clear();
+  const JobResult back = decode_result(encode_result({result, {}}, ContentType::json));
+  EXPECT_FALSE(std::get<TransportJobResult>(back.data).records.has_value());
+}
+
+TEST(JobCodec, RecordsOfAResultThatAreNotWholeAreRefused) {
+  TransportJobResult result;
+  result.records = ssphh::test::random_records(9, 2, 1);
+  const std::string text = encode_result({result, {}}, ContentType::json);
+  const auto problem = [&](const std::function<void(json::Value&)>& change) {
+    json::Value document = json::parse(text, "test");
+    change(document["records"]);
+    return ssphh::test::message_of([&] { decode_result(json::print(document)); });
+  };
+  EXPECT_THAT(problem([](auto& r) { r["normals"].push_back(1.0); }), testing::HasSubstr("records.normals"));
+  EXPECT_THAT(problem([](auto& r) { r["groups"][0]["values"].push_back(1.0); }),
+              testing::HasSubstr("records.groups[0].values: must be nine"));
+  EXPECT_THAT(problem([](auto& r) { r["groups"][0]["values"][3] = 32768.0; }),
+              testing::HasSubstr("must lie in -32767..32767"));
+  EXPECT_THAT(problem([](auto& r) {
+                r["direct"] = json::Value::array({r["groups"][0], r["groups"][0]});
+              }),
+              testing::HasSubstr("records"));
+}
+
 // The words of a job are those of the tables; any others are refused when it is read.
 TEST(JobCodec, WordsOfATileJobAreTheTables) {
   TileJob job = test::some_tile_job();
@@ -84,7 +158,8 @@ TEST(JobCodec, WordsOfATileJobAreTheTables) {
   EXPECT_EQ(problem(R"("layers":["direct")", R"("layers":["light")"),
             "job: layers[0]: \"light\" is none of: color, direct, indirect, albedo, normal, depth, coverage, "
             "groups");
-  EXPECT_EQ(problem(R"("kind":"ref")", R"("kind":"tile")"), "job: kind: \"tile\" is none of: gen, viz, ref");
+  EXPECT_EQ(problem(R"("kind":"ref")", R"("kind":"tile")"),
+            "job: kind: \"tile\" is none of: gen, viz, ref, transport");
 }
 
 /// Coefficients that are all different.

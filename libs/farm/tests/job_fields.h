@@ -38,6 +38,41 @@ void fields(auto& visit, farm::TileJob& j) {
   visit("scene", scene), visit("params", params), visit("tiles", tiles), visit("layers", layers);
   visit("lighting", lighting);
 }
+void fields(auto& visit, transport::TransportParams& p) {
+  auto& [directions, surfel_size, link_rays, samples, surfels_per_radius, most_surfels, grow] = p;
+  visit("directions", directions), visit("surfel_size", surfel_size), visit("link_rays", link_rays);
+  visit("samples", samples), visit("surfels_per_radius", surfels_per_radius);
+  visit("most_surfels", most_surfels), visit("grow", grow);
+}
+void fields(auto& visit, transport::SolveParams& p) {
+  auto& [tolerance, max_iterations, settle] = p;
+  visit("tolerance", tolerance), visit("max_iterations", max_iterations), visit("settle", settle);
+}
+void fields(auto& visit, transport::LinkVizParams& p) {
+  auto& [neighbors, threshold, source, solve] = p;
+  visit("neighbors", neighbors), visit("threshold", threshold), visit("source", source);
+  visit("solve", solve);
+}
+void fields(auto& visit, probes::TileBox& b) {
+  auto& [min, max] = b;
+  visit("min", min), visit("max", max);
+}
+void fields(auto& visit, transport::GatherParams& p) {
+  auto& [points, rays, poses, baked, within] = p;
+  visit("points", points), visit("rays", rays), visit("poses", poses), visit("baked", baked);
+  visit("within", within);
+}
+/// But for what stays at home.
+void fields(auto& visit, bake::TransportBakeParams& p) {
+  auto& [op, bounce, transport, solve, viz, viz_params, records, fit, fit_params, own_probes] = p;
+  visit("transport", transport), visit("solve", solve), visit("viz", viz), visit("viz_params", viz_params);
+  visit("records", records), visit("own_probes", own_probes);
+}
+void fields(auto& visit, farm::TransportJob& j) {
+  auto& [scene, degree, light_known, params, places] = j;
+  visit("scene", scene), visit("degree", degree), visit("light_known", light_known);
+  visit("params", params), visit("places", places);
+}
 void fields(auto& visit, farm::ProbeJobResult& r) {
   auto& [stage, degree, probes] = r;
   visit("stage", stage), visit("degree", degree), visit("probes", probes);
@@ -75,6 +110,22 @@ inline ProbeJob some_probe_job(bake::BakeStage stage) {
   job.path = {5, 2, 3, 0x9abcdef012345678};
   job.viz_params = {true, 4, 1.0f / 3, probes::VizSource::radiance, rays::PathSet::diffuse};
   job.probes = {0, 1, 2};
+  job.places = {{{0.1f, 0.2f, 0.3f}, 0.4f}, {{0.5f, 0.6f, 0.7f}, 0.8f}, {{0.9f, 1.1f, 1.2f}, 1.3f}};
+  return job;
+}
+
+inline TransportJob some_transport_job() {
+  TransportJob job;
+  job.scene = some_scene();
+  job.degree = 3;
+  job.light_known = true;
+  bake::TransportBakeParams& p = job.params;
+  p.transport = {111, 0.3f, 55, 7, 21.5f, 4321, true};
+  p.solve = {0.02f, 99, false};
+  p.viz = true;
+  p.viz_params = {5, 1.0f / 7, probes::VizSource::radiance, {0.05f, 33, true}};
+  p.records = {77, 88, 3, {0, 2}, {{1.5f, -1e30f, 0.1f}, {2.5f, 3, 4}}};
+  p.own_probes = 2;
   job.places = {{{0.1f, 0.2f, 0.3f}, 0.4f}, {{0.5f, 0.6f, 0.7f}, 0.8f}, {{0.9f, 1.1f, 1.2f}, 1.3f}};
   return job;
 }

@@ -74,6 +74,40 @@ TEST(JobLimits, OfProbeJobs) {
   }
 }
 
+TEST(JobLimits, OfTransportJobs) {
+  const TransportJob job = test::some_transport_job();
+  const auto place = [](TransportJob& j, std::size_t count) { j.places.assign(count, {{1, 2, 3}, 1}); };
+  expect_allowed<TransportJob>(job, {{"places", [&](auto& j) { place(j, job_limits::tile_places); }},
+                                     {"one place", [&](auto& j) { place(j, 1), j.params.own_probes = 1; }},
+                                     {"all own", [](auto& j) { j.params.own_probes = 3; }},
+                                     {"degree", [](auto& j) { j.degree = sh::max_degree; }},
+                                     {"directions", [](auto& j) { j.params.transport.directions = 8; }},
+                                     {"surfel size", [](auto& j) { j.params.transport.surfel_size = 0; }},
+                                     {"samples", [](auto& j) { j.params.transport.samples = 32; }},
+                                     {"no records", [](auto& j) { j.params.records.points = 0; }},
+                                     {"records", [](auto& j) { j.params.records.points = 65536; }}});
+  expect_refused<TransportJob>(
+      job, {{"time", [](auto& j) { j.scene.time = infinite; }},
+            {"degree", [](auto& j) { j.degree = sh::max_degree + 1; }},
+            {"places", [&](auto& j) { place(j, job_limits::tile_places + 1); }},
+            {"no places", [&](auto& j) { place(j, 0); }},
+            {"none own", [](auto& j) { j.params.own_probes = 0; }},
+            {"too many own", [](auto& j) { j.params.own_probes = 4; }},
+            {"place", [](auto& j) { j.places[1].position.y = not_a_number; }},
+            {"radius", [](auto& j) { j.places[2].radius = 0; }},
+            {"bounce", [](auto& j) { j.params.op = probes::LightOperator::bounce; }},
+            {"fit", [](auto& j) { j.params.fit = true; }},
+            {"directions", [](auto& j) { j.params.transport.directions = 7; }},
+            {"link rays", [](auto& j) { j.params.transport.link_rays = 3; }},
+            {"samples", [](auto& j) { j.params.transport.samples = 33; }},
+            {"surfel size", [](auto& j) { j.params.transport.surfel_size = not_a_number; }},
+            {"per radius", [](auto& j) { j.params.transport.surfels_per_radius = 0; }},
+            {"surfels", [](auto& j) { j.params.transport.most_surfels = 0; }},
+            {"records", [](auto& j) { j.params.records.points = 65537; }},
+            {"record rays", [](auto& j) { j.params.records.rays = 3; }},
+            {"groups", [](auto& j) { j.params.records.baked.assign(257, 0); }}});
+}
+
 // GEN has the places of its probes and any index of a set; VIZ has the set's places, and its probes among
 // them.
 TEST(JobLimits, OfPlacesOfAStage) {

@@ -23,6 +23,11 @@ Undecisive besides(Undecisive more) {
   return more;
 }
 
+TEST(UnitKey, OfATransportJobHoldsEveryFieldOfIt) {
+  expect_a_key_of_every_field(
+      test::some_transport_job(), [](const TransportJob& job) { return unit_key(job); }, besides({}));
+}
+
 TEST(UnitKey, OfATileHoldsEveryFieldOfItsJob) {
   expect_a_key_of_every_field(
       test::some_tile_job(),

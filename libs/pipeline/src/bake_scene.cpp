@@ -13,6 +13,7 @@
 #include <ssphh/pipeline/bake_scene.h>
 #include <ssphh/pipeline/scene_options.h>
 #include <ssphh/place/init.h>
+#include <ssphh/probes/probe_limits.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
 
@@ -120,7 +121,7 @@ bool fit_into_memory(BakeSettings& o) {
 /// By transport, as settings that are resolved ask for.
 void transport(SceneBake& result, const BakeSettings& o, std::span<const probes::Tile> tiles,
                const trace::TransportScene& source, const scene::Scene& scene,
-               const std::filesystem::path& checkpoint, const Control& control) {
+               const std::filesystem::path& checkpoint, bake::TileCrew* crew, const Control& control) {
   const bool path = o.op == probes::LightOperator::path;
   bake::TiledParams params{o.transport, path};
   if (!o.tiles.empty()) {
@@ -130,7 +131,7 @@ void transport(SceneBake& result, const BakeSettings& o, std::span<const probes:
     };
     probes::TileFolder folder(o.tiles, bake::tiled_key(source, result.set, tiles, params),
                               {tiles.begin(), tiles.end()});
-    bake::transport_into_folder(source, result.set, tiles, params, folder, result.transport, control);
+    bake::transport_into_folder(source, result.set, tiles, params, folder, result.transport, control, crew);
     result.set.light_groups = folder.read(0).light_groups;
     return;
   }
@@ -140,7 +141,7 @@ void transport(SceneBake& result, const BakeSettings& o, std::span<const probes:
       folder.emplace(tiles_of(checkpoint), bake::tiled_key(source, result.set, tiles, params),
                      std::vector(tiles.begin(), tiles.end()));
     bake::transport_in_tiles(source, result.set, tiles, params, folder ? &*folder : nullptr, result.transport,
-                             control);
+                             control, crew);
   } else if (path) {
     bake::add_transport(source, result.set, o.transport, result.transport, control);
   } else {
@@ -151,7 +152,8 @@ void transport(SceneBake& result, const BakeSettings& o, std::span<const probes:
 /// Fills the result's set, which INIT made, by settings that are resolved.
 void fill(SceneBake& result, const BakeSettings& o, std::span<const probes::Tile> tiles,
           const trace::SharedGeometry& geometry, const scene::Scene& scene, float time,
-          const std::filesystem::path& checkpoint, bake::BakeCrew* crew, const Control& control) {
+          const std::filesystem::path& checkpoint, bake::BakeCrew* crew, bake::TileCrew* tile_crew,
+          const Control& control) {
   const bool path = o.op == probes::LightOperator::path;
   const bool links = o.transport.viz;
   probes::Baseline baseline{links ? o.transport.viz_params.neighbors : o.params.viz_params.neighbors,
@@ -161,7 +163,8 @@ void fill(SceneBake& result, const BakeSettings& o, std::span<const probes::Tile
                             scene::scene_items(scene, time),
                             {}};
   if (!path || o.transport.fit || o.transport.viz || o.transport.records.points > 0) {
-    transport(result, o, tiles, trace::TransportScene(geometry, scene), scene, checkpoint, control);
+    transport(result, o, tiles, trace::TransportScene(geometry, scene), scene, checkpoint, tile_crew,
+              control);
     if (!o.tiles.empty()) return;
   }
   if (path || o.params.viz) {
@@ -194,13 +197,14 @@ BakeSettings::BakeSettings() {
 void require_work_for(bool farm, probes::LightOperator op, bool viz_by_path) {
   if (farm && op != probes::LightOperator::path && !viz_by_path)
     throw Error(fmt::format("--operator {}", name_of(op)),
-                "is done here, in seconds; a farm does GEN and VIZ by path tracing",
+                "is done here, in seconds; a farm does GEN and VIZ by path tracing, and scenes in tiles",
                 "leave out --broker and --local");
 }
 
 SceneBake bake_scene(const trace::SharedGeometry& geometry, const scene::Scene& scene, float time,
                      const PlaceOptions& places, const BakeSettings& settings,
-                     const std::filesystem::path& checkpoint, const Control& control, bake::BakeCrew* crew) {
+                     const std::filesystem::path& checkpoint, const Control& control, bake::BakeCrew* crew,
+                     bake::TileCrew* tile_crew) {
   require(!(settings.max_memory < 0) && std::isfinite(settings.max_memory), "memory of a bake",
           "must be gigabytes, or 0 for half of the machine's");
   require(settings.records.value_or(0) >= 0 && settings.usual_records >= 0, "records of a bake",
@@ -225,14 +229,19 @@ SceneBake bake_scene(const trace::SharedGeometry& geometry, const scene::Scene& 
   if (!o.tiles.empty() && o.transport.fit)
     throw Error(o.tiles.string(), "weights are not fitted in tiles",
                 "leave out --fit, or write a .sphl file");
+  if (o.tiles.empty() && result.set.probes.size() > probes::limits::probes)
+    throw Error(fmt::format("{} probes", result.set.probes.size()),
+                fmt::format("are more than the {} of a probe file", probes::limits::probes),
+                "write a folder of tiles: -o NAME.tiles");
   const std::vector<probes::Tile> tiles = bake::make_tiles(
       result.set, in_tiles(o) ? o.most_probes_in_tile : std::max<std::size_t>(result.set.probes.size(), 1));
   if (tiles.size() > 1) log_info("{} probes are lit in {} tiles", result.set.probes.size(), tiles.size());
-  result.viz = resolve(o, result.set.probes.size(), tiles.size(), crew != nullptr, keeps_asked);
+  const bool tiles_for_crew = tile_crew && (tiles.size() > 1 || !o.tiles.empty());
+  result.viz = resolve(o, result.set.probes.size(), tiles.size(), crew && !tiles_for_crew, keeps_asked);
   o.transport.records.baked = bake::baked_indices(bake::light_modes(scene, o.transport.records.points > 0));
 
   const bool limited = fit_into_memory(o);
-  fill(result, o, tiles, geometry, scene, time, checkpoint, crew, control);
+  fill(result, o, tiles, geometry, scene, time, checkpoint, crew, tile_crew, control);
   bake::TransportBakeReport& t = result.transport;
   if (limited && t.coarsest_surfel > t.finest_surfel) {
     t.warnings.push_back(

@@ -34,8 +34,8 @@ void check(const PlaceParams& p) {
     fail(fmt::format("the clearance must be a number of metres over 0, not {:g}", p.clearance));
   }
   if (p.levels < 0 || p.levels > 3) fail(fmt::format("the levels must be 0..3, not {}", p.levels));
-  if (p.max_probes < 1 || static_cast<std::size_t>(p.max_probes) > probes::limits::probes) {
-    fail(fmt::format("the largest number of probes must be 1..{}, not {}", probes::limits::probes,
+  if (p.max_probes < 1 || static_cast<std::size_t>(p.max_probes) > probes::limits::placed) {
+    fail(fmt::format("the largest number of probes must be 1..{}, not {}", probes::limits::placed,
                      p.max_probes));
   }
   if (p.count > p.max_probes) {

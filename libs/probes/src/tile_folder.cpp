@@ -18,7 +18,7 @@ namespace ssphh::probes {
 namespace {
 
 constexpr const char* index_name = "tiles.json";
-constexpr std::size_t most_tiles = std::size_t{1} << 20;
+constexpr std::size_t most_tiles = limits::placed;
 
 /// null where a box has no end.
 json::Value corner(const vec3& at) {
@@ -71,6 +71,7 @@ Index read_index(const std::filesystem::path& folder) {
     tile.box = {read_corner(at["min"], TileBox().min.x), read_corner(at["max"], TileBox().max.x)};
     first += tile.own;
   }
+  if (first > limits::placed) list.fail(fmt::format("are of {} probes, over {}", first, limits::placed));
   for (std::size_t t = 0; t < index.tiles.size(); ++t) {
     const json::Cursor halo = list[t]["halo"];
     for (std::size_t k = 0; k < halo.size(0, limits::probes); ++k)

@@ -87,7 +87,8 @@ class NetworkBuilder {
   void choose_sizes() {
     const std::size_t most = static_cast<std::size_t>(d_.params.most_surfels);
     const float size = d_.surfels.size();
-    SurfelSizes sizes = sizes_within(d_.gbuffer, size, most, lamp_places(size), lamp_places(4 * size));
+    SurfelSizes sizes =
+        sizes_within(d_.gbuffer, size, most, lamp_places(size), lamp_places(4 * size), d_.params.grow);
     std::vector<int> part_levels;
     for (const scene::Bounds& swept : d_.swept) part_levels.push_back(sizes.level(swept));
     d_.surfels = SurfelSet(d_.source, std::move(sizes), std::move(part_levels));

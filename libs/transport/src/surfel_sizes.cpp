@@ -131,10 +131,10 @@ double estimated_surfels(const ProbeGBuffer& gbuffer, const SurfelSizes& sizes) 
 }
 
 SurfelSizes sizes_within(const ProbeGBuffer& gbuffer, float size, std::size_t most,
-                         std::span<const vec3> small_lamps, std::span<const vec3> lamps) {
+                         std::span<const vec3> small_lamps, std::span<const vec3> lamps, bool grow) {
   const std::vector<Patch> patches = patches_of(gbuffer);
   SurfelSizes sizes(size, small_lamps);
-  if (surfels_of(patches, sizes) <= static_cast<double>(most)) return sizes;
+  if (!grow && surfels_of(patches, sizes) <= static_cast<double>(most)) return sizes;
   constexpr float first_share = 1.0f / 12, last_share = 16;
   for (float share = first_share; share <= last_share; share *= 1.25f) {
     sizes = SurfelSizes(size, gbuffer.positions, share, lamps);

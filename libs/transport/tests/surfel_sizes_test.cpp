@@ -131,6 +131,10 @@ TEST(SurfelSizes, TheEstimateIsTheSurfaceSeenOverTheVoxelsFace) {
   EXPECT_NEAR(estimated_surfels(seen, SurfelSizes(0.5f)), 94 / 0.25, 0.04 * 94 / 0.25);
   // Few enough: the finest everywhere. Too many: a quarter, or fewer.
   EXPECT_EQ(sizes_within(seen, 0.25f, 2000).level(vec3(9)), 0);
+  EXPECT_FALSE(sizes_within(seen, 0.25f, 2000).grow());
+  const SurfelSizes grown = sizes_within(seen, 0.25f, 2000, {}, {}, true);
+  EXPECT_TRUE(grown.grow());
+  EXPECT_GT(grown.level(vec3(90)), 3);
   const SurfelSizes coarse = sizes_within(seen, 0.25f, 1200);
   EXPECT_GT(coarse.level(vec3(9)), 0);
   EXPECT_LE(estimated_surfels(seen, coarse), 300);

@@ -26,18 +26,39 @@ struct TiledParams {
   std::function<void(probes::ProbeSet&)> finish = {};
 };
 
+/// Bakes a set_of_tile(), all of it there but its light: bake_transport(), or where that is known
+/// add_transport(), as `params` of params_of_tile() say. What a crew does for each tile.
+void bake_tile(const rays::TransportSource& source, probes::ProbeSet& tile, const TransportBakeParams& params,
+               bool light_known, TransportBakeReport& report, const Control& control = {});
+TransportBakeParams params_of_tile(TransportBakeParams params, const probes::Tile& tile);
+
+/// Does tiles elsewhere: on a farm.
+class TileCrew {
+ public:
+  virtual ~TileCrew() = default;
+  /// Does bake_tile() for those of `which`, in any order, and hands each to `done`, from one thread at a
+  /// time. Throws Cancelled, or Error when a tile cannot be done.
+  virtual void run_tiles(
+      const probes::ProbeSet& set, std::span<const probes::Tile> tiles, std::span<const std::size_t> which,
+      const TiledParams& params,
+      const std::function<void(std::size_t tile, probes::ProbeSet baked, TransportBakeReport took)>& done,
+      const Control& control) = 0;
+};
+
 /// Fills the set as bake_transport() or add_transport() do, in these tiles of make_tiles(). With a `folder`
 /// of the tiles each that is baked is kept in there, and none that it holds is baked again; the caller
-/// removes it once the set is safe on disk. Throws as these do; Error when the folder cannot be written.
+/// removes it once the set is safe on disk. A `crew` does the tiles, to the same bits. Throws as these do;
+/// Error when the folder cannot be written.
 void transport_in_tiles(const rays::TransportSource& source, probes::ProbeSet& set,
                         std::span<const probes::Tile> tiles, const TiledParams& params,
-                        probes::TileFolder* folder, TransportBakeReport& report, const Control& control = {});
+                        probes::TileFolder* folder, TransportBakeReport& report, const Control& control = {},
+                        TileCrew* crew = nullptr);
 
 /// The same into the folder alone, for sets that memory is too small for: of `set` the places are read.
 void transport_into_folder(const rays::TransportSource& source, const probes::ProbeSet& set,
                            std::span<const probes::Tile> tiles, const TiledParams& params,
                            probes::TileFolder& folder, TransportBakeReport& report,
-                           const Control& control = {});
+                           const Control& control = {}, TileCrew* crew = nullptr);
 
 /// update_transport() of a set that transport_in_tiles() filled, in tiles of at most so many probes: those in
 /// which the scope names no probe keep their bits. A set that stands in no such tiles is updated as a whole.

@@ -45,6 +45,7 @@ struct UnitGroup {
   std::function<std::string(std::span<const std::size_t> units)> body;
   /// Takes the result; throws Error for one that does not answer the job.
   std::function<void(std::span<const std::size_t> units, JobResult result)> done;
+  std::size_t most_per_job = 1024;
 };
 
 /// Does all units of all groups, the first group first. `finished(units)` is told after each job. Throws

@@ -1,15 +1,16 @@
 #pragma once
-/// GEN and VIZ on a farm: the crew of bake::bake.
+/// Bakes on a farm: GEN and VIZ, the crew of bake::bake, and tiles of transport.
 
 #include <ssphh/bake/bake.h>
+#include <ssphh/bake/tiled_transport.h>
 #include <ssphh/farm/dispatch.h>
 #include <ssphh/scene/scene.h>
 
 namespace ssphh::farm {
 
-/// Hands out the scene and has probes done by workers, each once, in any order. Probes whose result is in
-/// options.results are taken from there, whatever bake they come from.
-class FarmCrew final : public bake::BakeCrew {
+/// Hands out the scene and has probes, or tiles of them, done by workers, each once, in any order. Those
+/// whose result is in options.results are taken from there, whatever bake they come from.
+class FarmCrew final : public bake::BakeCrew, public bake::TileCrew {
  public:
   /// Keeps references to both; the scene is `scene` posed at `time`.
   FarmCrew(const FarmOptions& options, const scene::Scene& scene, float time)
@@ -22,6 +23,11 @@ class FarmCrew final : public bake::BakeCrew {
   void run(const probes::ProbeSet& set, const bake::BakeParams& params,
            std::span<const bake::ProbeStage> stages, const std::function<void(bake::ProbeStageResult)>& done,
            const Control& control) override;
+
+  void run_tiles(const probes::ProbeSet& set, std::span<const probes::Tile> tiles,
+                 std::span<const std::size_t> which, const bake::TiledParams& params,
+                 const std::function<void(std::size_t, probes::ProbeSet, bake::TransportBakeReport)>& done,
+                 const Control& control) override;
 
   const FarmReport& report() const { return report_; }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <ssphh/bake/bake.h>
+#include <ssphh/bake/tiled_transport.h>
 #include <ssphh/core/enum_names.h>
 #include <ssphh/probes/lookup.h>
 #include <ssphh/trace/render_state.h>
@@ -68,12 +69,23 @@ struct TileJob {
   std::optional<ProbeLighting> lighting;
 };
 
-using Job = std::variant<ProbeJob, TileJob>;
+/// Light by transport of one tile of a set (bake::bake_tile).
+struct TransportJob {
+  SceneRef scene;
+  int degree = 9;
+  bool light_known = false;  ///< edges and records alone
+  /// Of operator `surfel`, without fitted weights; `bounce` and `fit_params` stay at home.
+  bake::TransportBakeParams params;
+  std::vector<ProbeSphere> places;  ///< the tile's own probes, then those of its halo
+};
 
-enum class JobKind { gen, viz, ref };
+using Job = std::variant<ProbeJob, TileJob, TransportJob>;
+
+enum class JobKind { gen, viz, ref, transport };
 constexpr auto enum_table(JobKind) {
   using enum JobKind;
-  return std::to_array<EnumName<JobKind>>({{gen, "gen"}, {viz, "viz"}, {ref, "ref"}});
+  return std::to_array<EnumName<JobKind>>(
+      {{gen, "gen"}, {viz, "viz"}, {ref, "ref"}, {transport, "transport"}});
 }
 
 JobKind kind_of(const Job& job);
@@ -94,6 +106,17 @@ struct TileJobResult {
   std::vector<TileResult> tiles;  ///< in the order of the job
 };
 
+/// What the tile's probes got, in the order of the job's places.
+struct TransportJobResult {
+  int degree = 9;
+  std::vector<std::string> light_groups;
+  float surfel_size = 0;                               ///< of the network, metres
+  std::vector<std::vector<probes::GroupLight>> light;  ///< [place][light group]; none where it was known
+  std::vector<std::vector<probes::Edge>> edges;        ///< [place], `from` counts the places
+  std::optional<probes::SurfaceRecords> records;
+  bake::TransportBakeReport report;
+};
+
 /// What the job took: no part of the result.
 struct JobStats {
   double seconds = 0;
@@ -102,7 +125,7 @@ struct JobStats {
 };
 
 struct JobResult {
-  std::variant<ProbeJobResult, TileJobResult> data;
+  std::variant<ProbeJobResult, TileJobResult, TransportJobResult> data;
   JobStats stats;
 };
 
@@ -110,7 +133,8 @@ struct JobResult {
 namespace job_limits {
 inline constexpr std::size_t units = 4096;    ///< probes or tiles
 inline constexpr std::size_t places = 65536;  ///< of a set
-inline constexpr int picture_size = 65536;    ///< pixels along an edge
+inline constexpr std::size_t tile_places = 16384;
+inline constexpr int picture_size = 65536;  ///< pixels along an edge
 inline constexpr int tile_size = 1024;
 inline constexpr std::uint64_t samples = std::uint64_t{1} << 40;  ///< paths of one job
 }  // namespace job_limits

@@ -29,6 +29,7 @@ std::vector<std::byte> fetch_blob(DiskCache& cache, const Hash128& package, cons
 
 struct PreparedScene {
   scene::Scene scene;
+  trace::SharedGeometry geometry;
   std::unique_ptr<trace::PathTracer> tracer;
 };
 

@@ -80,7 +80,8 @@ struct SceneBake {
   std::optional<PlaceResult> place;                 ///< where places were looked for
 };
 
-/// Finds places in the scene posed at `time`, and the light there. A farm's `crew` does GEN and VIZ by paths.
+/// Finds places in the scene posed at `time`, and the light there. A farm's `crew` does GEN and VIZ by paths,
+/// its `tile_crew` the tiles of a scene in tiles.
 /// Warns in the log as its parts do. Throws Error for settings that exclude each other, and as
 /// place::place_probes, bake::bake and bake::bake_transport do; Cancelled when asked to stop, which leaves
 /// `checkpoint`, and of a scene in tiles CHECKPOINT.tiles beside it, for the next call with the same
@@ -88,7 +89,7 @@ struct SceneBake {
 SceneBake bake_scene(const trace::SharedGeometry& geometry, const scene::Scene& scene, float time,
                      const PlaceOptions& places, const BakeSettings& settings,
                      const std::filesystem::path& checkpoint, const Control& control = {},
-                     bake::BakeCrew* crew = nullptr);
+                     bake::BakeCrew* crew = nullptr, bake::TileCrew* tile_crew = nullptr);
 
 /// Removes what a bake left, once its result is safe.
 void remove_checkpoint(const std::filesystem::path& checkpoint);

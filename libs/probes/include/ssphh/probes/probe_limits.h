@@ -8,6 +8,7 @@
 namespace ssphh::probes::limits {
 
 inline constexpr std::size_t probes = 65536;
+inline constexpr std::size_t placed = std::size_t{1} << 21;  ///< probes of a folder of tiles
 inline constexpr std::size_t light_groups = 256;
 inline constexpr std::size_t text = 1024;  ///< bytes of a name
 inline constexpr int depth = 65535;

@@ -56,8 +56,9 @@ double estimated_surfels(const ProbeGBuffer& gbuffer, const SurfelSizes& sizes);
 /// `size` [m] everywhere, halved near `small_lamps`, if that makes about `most` surfels or fewer, else as
 /// much larger far from probes and `lamps` as it takes to come down to a quarter of that (clutter makes twice
 /// as many of them as its area tells). There surfels near lamps would be several times as large, so `lamps`
-/// may be wider.
+/// may be wider. With `grow` they are larger far from probes in any case.
 SurfelSizes sizes_within(const ProbeGBuffer& gbuffer, float size, std::size_t most,
-                         std::span<const vec3> small_lamps = {}, std::span<const vec3> lamps = {});
+                         std::span<const vec3> small_lamps = {}, std::span<const vec3> lamps = {},
+                         bool grow = false);
 
 }  // namespace ssphh::transport

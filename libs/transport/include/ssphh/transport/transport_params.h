@@ -26,6 +26,7 @@ struct TransportParams {
   /// Where one size for all would make more surfels than about this, they grow with the distance of probes
   /// (surfel_sizes.h).
   int most_surfels = 100000;
+  bool grow = false;  ///< they do so however few one size makes: beyond what probes see, too, lies a city
 
   friend bool operator==(const TransportParams&, const TransportParams&) = default;
 };
