@@ -96,7 +96,7 @@ TEST(PlaceTool, SaysWhatIsWrong) {
   }
   const ToolResult many = bake("auto:0.001");
   EXPECT_EQ(many.exit_code, 1);
-  EXPECT_THAT(many.err, HasSubstr("more than 4096 probes"));
+  EXPECT_THAT(many.err, HasSubstr("more than 65536 probes"));
   const ToolResult few = bake("auto:1", {"--max-probes", "10"});
   EXPECT_EQ(few.exit_code, 1);
   EXPECT_THAT(few.err, HasSubstr("more than 10 probes"));

@@ -11,9 +11,18 @@ namespace {
 
 /// Over 512 probes in the Cornell box, as cheap as may be: two tiles.
 std::vector<std::string> two_tiles() {
-  return {"bake",     "builtin:cornell", "--probes",      "auto:0.245", "--refine", "0", "--operator",    "surfel", "--quality",
-          "draft",    "--degree",        "1",             "--directions", "32",    "--link-rays", "8",
-          "--surfel-size", "0.6",        "--records", "50", "--viz",         "links",  "--neighbors", "2"};
+  return {"bake",          "builtin:cornell",
+          "--probes",      "auto:0.245",
+          "--refine",      "0",
+          "--operator",    "surfel",
+          "--quality",     "draft",
+          "--degree",      "1",
+          "--directions",  "32",
+          "--link-rays",   "8",
+          "--surfel-size", "0.6",
+          "--records",     "50",
+          "--viz",         "links",
+          "--neighbors",   "2"};
 }
 
 TEST(FarmTiles, HaveTheBitsOfALocalBake) {
@@ -42,8 +51,7 @@ TEST(FarmTiles, KeepTheirMessagesAsJsonOfTheSchemas) {
   const TempDir dir;
   auto command = two_tiles();
   const std::string folder = (dir / "box.tiles").string(), kept = (dir / "kept").string();
-  command.insert(command.end(),
-                 {"-o", folder, "--local", "1", "--cache", "none", "--keep-messages", kept});
+  command.insert(command.end(), {"-o", folder, "--local", "1", "--cache", "none", "--keep-messages", kept});
   run_json(command);
   EXPECT_TRUE(std::filesystem::exists(folder + "/tiles.json") && std::filesystem::exists(folder + "/1.sphl"));
   int messages = 0;

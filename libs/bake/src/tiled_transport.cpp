@@ -185,7 +185,7 @@ std::vector<Tile> make_tiles(probes::ProbeSet& set, std::size_t most_probes) {
 TransportBakeParams params_of_tile(TransportBakeParams params, const Tile& tile) {
   params.own_probes = tile.own;
   params.records.within = tile.box;
-  params.transport.grow = true;
+  params.transport.grow = tile.box != probes::TileBox();
   return params;
 }
 

@@ -22,19 +22,22 @@ TransportJob job_of(const probes::ProbeSet& set, const probes::Tile& tile, const
     const probes::Probe& probe = set.probes[tile.first + k];
     job.places.push_back({probe.position, probe.radius});
   }
-  for (const std::uint32_t i : tile.halo) job.places.push_back({set.probes[i].position, set.probes[i].radius});
+  for (const std::uint32_t i : tile.halo)
+    job.places.push_back({set.probes[i].position, set.probes[i].radius});
   return job;
 }
 
 /// Whether a result answers the job.
 bool answers(const TransportJob& job, std::size_t light_groups, const TransportJobResult& r) {
   const std::size_t count = job.places.size();
-  if (r.degree != job.degree || r.light_groups.size() != light_groups || r.edges.size() != count) return false;
+  if (r.degree != job.degree || r.light_groups.size() != light_groups || r.edges.size() != count)
+    return false;
   if (r.light.size() != (job.light_known ? 0 : count)) return false;
   for (const auto& groups : r.light)
     if (groups.size() != light_groups) return false;
   for (const auto& edges : r.edges)
-    if (!edges.empty() && (!job.params.viz || static_cast<std::size_t>(edges.back().from) >= count)) return false;
+    if (!edges.empty() && (!job.params.viz || static_cast<std::size_t>(edges.back().from) >= count))
+      return false;
   return r.records.has_value() == (job.params.records.points > 0) &&
          (!r.records || r.records->groups.size() == light_groups);
 }

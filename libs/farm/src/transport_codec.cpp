@@ -176,7 +176,9 @@ json::Value put(const bake::TransportBakeReport& r) {
 }
 
 bake::TransportBakeReport get_report(const Field& f) {
-  const auto number = [&](const char* name) { return static_cast<std::uint64_t>(f[name].integer(0, INT64_MAX)); };
+  const auto number = [&](const char* name) {
+    return static_cast<std::uint64_t>(f[name].integer(0, INT64_MAX));
+  };
   bake::TransportBakeReport r;
   r.surfels = number("surfels");
   r.links = number("links");

@@ -7,6 +7,7 @@
 #include <ssphh/core/require.h>
 #include <ssphh/core/stopwatch.h>
 #include <ssphh/pipeline/places.h>
+#include <ssphh/probes/tile_folder.h>
 #include <ssphh/trace/transport_scene.h>
 
 namespace ssphh::pipeline {
@@ -35,7 +36,8 @@ std::string places_problem(const std::string& text) {
 }
 
 bool is_probe_file(const PlaceOptions& options) {
-  return options.probes.ends_with(".sphl") || options.probes.ends_with(".sphl.json");
+  return options.probes.ends_with(".sphl") || options.probes.ends_with(".sphl.json") ||
+         probes::is_tile_folder(options.probes);
 }
 
 std::optional<PlaceResult> place_for(const trace::SharedGeometry& geometry, const scene::Scene& scene,

@@ -156,7 +156,7 @@ TEST(PlaceRules, LimitsAreNamedWithWhatWasGiven) {
   EXPECT_THAT(said([](PlaceParams& p) { p.levels = 4; }), HasSubstr("the levels must be 0..3, not 4"));
   EXPECT_THAT(said([](PlaceParams& p) { p.levels = -1; }), HasSubstr("not -1"));
   EXPECT_THAT(said([](PlaceParams& p) { p.max_probes = 0; }), HasSubstr("must be 1..2097152, not 0"));
-  EXPECT_THAT(said([](PlaceParams& p) { p.max_probes = 65537; }), HasSubstr("not 65537"));
+  EXPECT_THAT(said([](PlaceParams& p) { p.max_probes = 2097153; }), HasSubstr("not 2097153"));
   EXPECT_EQ(said([](PlaceParams& p) { p.max_probes = 2097152; }), "no error");
   EXPECT_THAT(said([](PlaceParams& p) { p.count = -2; }), HasSubstr("must be positive, not -2"));
   EXPECT_THAT(said([](PlaceParams& p) { p.spacing = 2e9f; }), HasSubstr("not 2e+09"));

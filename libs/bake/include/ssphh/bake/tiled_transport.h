@@ -30,6 +30,7 @@ struct TiledParams {
 /// add_transport(), as `params` of params_of_tile() say. What a crew does for each tile.
 void bake_tile(const rays::TransportSource& source, probes::ProbeSet& tile, const TransportBakeParams& params,
                bool light_known, TransportBakeReport& report, const Control& control = {});
+/// For a tile that is all there is they are the same, but for what it names.
 TransportBakeParams params_of_tile(TransportBakeParams params, const probes::Tile& tile);
 
 /// Does tiles elsewhere: on a farm.
