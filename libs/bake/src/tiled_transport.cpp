@@ -8,6 +8,7 @@
 #include <ssphh/bake/tiled_transport.h>
 #include <ssphh/core/require.h>
 #include <ssphh/geometry/nearest.h>
+#include <ssphh/probes/probe_file.h>
 
 namespace ssphh::bake {
 namespace {

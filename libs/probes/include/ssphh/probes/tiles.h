@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <ssphh/core/math.h>
 #include <ssphh/probes/probe_set.h>
 
 namespace ssphh::probes {
